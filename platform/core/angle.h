@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles: radians in code, degrees only in files and on screens.
+#pragma once
+
+#include "platform/core/elementary.h"
+
+namespace touchline {
+
+constexpr float radians(float degrees) { return degrees * 0.017453292519943295F; }
+constexpr float degrees(float radians) { return radians * 57.295779513082321F; }
+
+/// The same direction in (-pi, pi]. Exact for angles already there; bounded time for any finite angle.
+float wrap_angle(float angle);
+/// to - from, in (-pi, pi].
+inline float angle_difference(float to, float from) { return wrap_angle(to - from); }
+
+}  // namespace touchline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Elementary functions of our own, so that a pose is the same bit for bit on every compiler, C library and board.
+// They use only +, -, *, / and sqrt, which IEEE 754 rounds correctly everywhere (built with -ffp-contract=off).
+// Error bounds are stated per function and checked by tests against double precision.
+#pragma once
+
+namespace touchline::math {
+
+inline constexpr float pi = 3.14159265358979323846F;
+inline constexpr float two_pi = 6.28318530717958647692F;
+inline constexpr float half_pi = 1.57079632679489661923F;
+
+float sqrt(float x);               // correctly rounded; x < 0 gives 0
+float sin(float radians);          // |radians| <= 1e4: absolute error < 2e-7
+float cos(float radians);          // likewise
+float tan(float radians);          // relative error < 1e-6 where |cos| > 1e-3
+float atan(float x);               // absolute error < 3e-7
+float atan2(float y, float x);     // in (-pi, pi]; atan2(0, 0) = 0
+float asin(float x);               // x is clamped to [-1, 1]
+float acos(float x);               // x is clamped to [-1, 1]
+float exp(float x);                // relative error < 3e-7; below -87: 0; above 88: 3.4e38
+float log(float x);                // x <= 0 gives -87.4 (the log of the smallest normal number)
+float hypot(float x, float y);     // sqrt(x*x + y*y), no protection against overflow
+
+inline float abs(float x) { return x < 0.0F ? -x : x; }
+inline float min(float a, float b) { return b < a ? b : a; }
+inline float max(float a, float b) { return a < b ? b : a; }
+inline float clamp(float x, float low, float high) { return min(max(x, low), high); }
+inline float square(float x) { return x * x; }
+
+}  // namespace touchline::math

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the camera hangs in the robot, for one frame, and the way from a pixel to the ground (inverse perspective
+// mapping, paper section V-B).
+#pragma once
+
+#include "platform/core/geometry.h"
+#include "vision/lens/lens.h"
+
+namespace touchline {
+
+/// The camera in the robot's frame. Its forward, left and up axes are the columns of Rz(yaw) Ry(pitch) Rx(roll).
+struct CameraPose {
+  float x = 0.0F;       // metres, forward of the robot's origin
+  float y = 0.0F;       // metres, to the left of it
+  float height = 0.0F;  // metres above the carpet, > 0
+  float yaw = 0.0F;     // radians, > 0 looks left
+  float pitch = 0.0F;   // radians, > 0 looks down
+  float roll = 0.0F;    // radians, > 0 lowers the right side; any roll is legal
+};
+
+/// Rotation that takes a ray from the optical frame (x right, y down, z forward) to the robot's axes (x forward,
+/// y left, z up).
+Mat3 robot_from_camera(const CameraPose& pose);
+
+/// A lens in a pose: everything needed to go between pixels and the ground for one frame.
+class GroundProjection {
+ public:
+  GroundProjection() = default;
+  GroundProjection(const Lens& lens, const CameraPose& pose);
+
+  /// False when the pixel sees no ground: outside the lens, or at or above the horizon.
+  [[nodiscard]] bool ground(const PixelPoint& pixel, GroundPoint& point) const;
+  /// The ray of a pixel in the robot's axes (unit vector); false outside the lens.
+  [[nodiscard]] bool robot_ray(const PixelPoint& pixel, Vec3& ray) const;
+  /// The ground point where a ray of the robot's axes, from the camera, meets the carpet; false at or above the horizon.
+  [[nodiscard]] bool intersect_ground(const Vec3& robot_ray, GroundPoint& point) const;
+  /// False when the point lies beyond the lens.
+  [[nodiscard]] bool pixel(const GroundPoint& point, PixelPoint& pixel) const;
+  /// Likewise for a point `z` metres above the carpet.
+  [[nodiscard]] bool pixel(const GroundPoint& point, float z, PixelPoint& pixel) const;
+  /// What `sigma_px` (camera pixels) and `sigma_tilt` (radians of pitch and of roll, each) mean on the ground there.
+  [[nodiscard]] Sym2 ground_covariance(const PixelPoint& pixel, float sigma_px, float sigma_tilt) const;
+
+  [[nodiscard]] const CameraPose& pose() const { return pose_; }
+  [[nodiscard]] const Lens& lens() const { return lens_; }
+
+ private:
+  Lens lens_{};
+  CameraPose pose_{};
+  Mat3 rotation_{};  // robot_from_camera(pose_)
+};
+
+}  // namespace touchline

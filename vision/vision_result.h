@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything the chain made of one frame, by reference into the pipeline's storage: valid until the next frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "vision/features.h"
+#include "vision/graph.h"
+#include "vision/image/bit_image.h"
+#include "vision/image/image_view.h"
+#include "vision/lens/camera_pose.h"
+#include "vision/line_width_table.h"
+
+namespace touchline {
+
+struct VisionCounts {
+  int frames_in_mean = 0;       // 1..depth
+  int frames_left_out = 0;      // held in the FIFO, but moved by more than about a working pixel
+  int green_pixels = 0;
+  int roi_pixels = 0;
+  int candidate_pixels = 0;
+  int line_pixels = 0;
+  int skeleton_pixels = 0;
+  int major_nodes = 0;
+  // What found no room; the partial result is valid.
+  int dropped_contour_points = 0;
+  int dropped_blobs = 0;
+  int dropped_edge_seeds = 0;   // Canny hysteresis stack
+  int dropped_nodes = 0;
+  int dropped_edges = 0;
+  int dropped_points = 0;
+  int dropped_junctions = 0;
+  int dropped_line_points = 0;
+};
+
+struct VisionResult {
+  double time_s = 0.0;          // of the newest frame; the mean holds only frames of its attitude
+  GroundProjection projection;  // lens and attitude that the features were measured with
+  int work_width = 0;
+  int work_height = 0;
+  ConstYuv420View mean;         // working size
+  ConstBitView green;           // after erosion and dilation
+  ConstBitView field;           // the largest blob
+  std::span<const GridPoint> hull;
+  ConstBitView roi;
+  ConstBitView candidates;      // white search united with Canny
+  ConstBitView line_mask;
+  ConstBitView skeleton;
+  LineWidthView line_widths;
+  std::span<const MajorNode> major_nodes;
+  NodeGraphView graph;
+  const Features* features = nullptr;  // never null after a successful call
+  VisionCounts counts;
+};
+
+}  // namespace touchline
