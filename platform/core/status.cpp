@@ -16,6 +16,7 @@ const char* to_string(Status status) {
     case Status::capacity: return "capacity exceeded";
     case Status::unsupported: return "unsupported";
     case Status::device_error: return "device error";
+    case Status::end_of_data: return "end of data";
   }
   return "unknown status";
 }

@@ -18,6 +18,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
   capacity,          // a fixed capacity is full; what fitted is valid
   unsupported,       // the device or the build does not offer this
   device_error,      // the operating system or the device refused
+  end_of_data,       // a recording is over; nothing more will come
 };
 
 /// English name of the status, for logs; never null.
