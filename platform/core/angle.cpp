@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/core/angle.h"
+
+#include <cstdint>
+
+namespace touchline {
+
+float wrap_angle(float angle) {
+  if (angle > -math::pi && angle <= math::pi) return angle;
+  if (angle == -math::pi) return math::pi;
+  if (!(math::abs(angle) < 1.0e9F)) return angle != angle ? angle : 0.0F;
+  // The nearest whole number of turns is taken off in double: its 53 bits leave 1e-7 even at 1e9.
+  constexpr double turn = 6.283185307179586476925;
+  const double wide = static_cast<double>(angle);
+  const double turns = wide / turn;
+  const std::int64_t whole = static_cast<std::int64_t>(turns < 0.0 ? turns - 0.5 : turns + 0.5);
+  const float wrapped = static_cast<float>(wide - static_cast<double>(whole) * turn);
+  if (wrapped > math::pi) return math::pi;
+  return wrapped <= -math::pi ? math::pi : wrapped;
+}
+
+}  // namespace touchline
