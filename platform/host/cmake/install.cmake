@@ -4,9 +4,11 @@
 include(CMakePackageConfigHelpers)
 set(TOUCHLINE_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/touchline)
 
-add_library(touchline INTERFACE)
-target_link_libraries(touchline INTERFACE ${TOUCHLINE_CORE_LIBRARIES})
-add_library(touchline::touchline ALIAS touchline)
+# The executable is called touchline too, so the target has another name here than for users.
+add_library(touchline_all INTERFACE)
+set_target_properties(touchline_all PROPERTIES EXPORT_NAME touchline)
+target_link_libraries(touchline_all INTERFACE ${TOUCHLINE_CORE_LIBRARIES})
+add_library(touchline::touchline ALIAS touchline_all)
 
 set(pkgconfig_libraries)
 foreach(library IN LISTS TOUCHLINE_CORE_LIBRARIES)
@@ -16,7 +18,7 @@ foreach(library IN LISTS TOUCHLINE_CORE_LIBRARIES)
 endforeach()
 list(JOIN pkgconfig_libraries " " TOUCHLINE_PKGCONFIG_LIBRARIES)
 
-install(TARGETS touchline ${TOUCHLINE_CORE_LIBRARIES} EXPORT touchline ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS touchline_all ${TOUCHLINE_CORE_LIBRARIES} EXPORT touchline ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT touchline NAMESPACE touchline:: FILE touchlineTargets.cmake DESTINATION ${TOUCHLINE_CMAKE_DIR})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/touchlineConfig.cmake.in
   ${PROJECT_BINARY_DIR}/touchlineConfig.cmake INSTALL_DESTINATION ${TOUCHLINE_CMAKE_DIR})

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# A thin front of CMake. `make` lists the targets; each installs the Debian packages that it misses.
+BUILD ?= build
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+DATA ?=
+NEED := platform/host/scripts/need.sh
+TOUCHLINE := $(BUILD)/platform/host/touchline
+
+.DEFAULT_GOAL := help
+.PHONY: help build demo test check golden accept bench format install clean
+
+help:  ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+# CMake keeps the generator and the compiler of its first run; Ninja and ccache are used where they are there.
+$(BUILD)/CMakeCache.txt:
+	@bash $(NEED) build test backends
+	@cmake -S . -B $(BUILD) $$(command -v ninja >/dev/null && echo -G Ninja) \
+	  $$(command -v ccache >/dev/null && echo -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache) \
+	  >$(BUILD).log 2>&1 || { cat $(BUILD).log; rm -f $(BUILD).log $(BUILD)/CMakeCache.txt; exit 1; }
+	@rm -f $(BUILD).log
+
+build: $(BUILD)/CMakeCache.txt  ## the library, the command line and the tests
+	@bash $(NEED) build test backends
+	@cmake --build $(BUILD) --parallel $(JOBS)
+
+demo: build  ## a simulated robot finds and follows its place; pictures go to demo/
+	@$(TOUCHLINE) demo --output demo
+
+test: build  ## all tests
+	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure
+
+check:  ## all gates: both compilers, sanitizers, format, lint, golden outputs (takes a while)
+	@bash $(NEED) build test check backends
+	@bash tests/gates/all.sh
+
+golden: build  ## writes the golden outputs anew, for changes of behaviour that are meant
+	@$(BUILD)/tests/golden/golden_outputs --write tests/golden/expected
+	@git --no-pager diff --stat -- tests/golden 2>/dev/null || true
+
+accept: build  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
+	@[ -n "$(DATA)" ] || { echo "Which data? Say: make accept DATA=folder" >&2; exit 2; }
+	@$(TOUCHLINE) accept "$(DATA)"
+
+bench: build  ## times per stage
+	@$(TOUCHLINE) bench
+
+format:  ## clang-format over all sources
+	@bash $(NEED) check
+	@bash tests/gates/format.sh --write
+
+install: build  ## make install PREFIX=/usr/local
+	@cmake --install $(BUILD) $(if $(PREFIX),--prefix "$(PREFIX)")
+
+clean:  ## removes the build and what the demo wrote
+	@rm -rf $(BUILD) demo

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# All gates, one after the other; ends at the first that is red and says which. Builds go to build/check/.
+#   all.sh [GATE...]      gates: format gcc clang core sanitize tidy golden (default: all, in this order)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+checks=build/check
+jobs=$(nproc)
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
+
+configure() {  # configure NAME CC CXX CMAKE_ARGUMENT...
+  local name=$1 cc=$2 cxx=$3
+  shift 3
+  cmake -S . -B "$checks/$name" -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" "${launcher[@]}" "$@" \
+    >"$checks/$name.log" 2>&1 || { cat "$checks/$name.log"; return 1; }
+}
+# Only the end of a good build's log is worth reading, all of a bad one's.
+compile() { cmake --build "$checks/$1" --parallel "$jobs" -- "${@:2}" >"$checks/$1.log" 2>&1 || { cat "$checks/$1.log"; return 1; }; }
+run_tests() { ctest --test-dir "$checks/$1" --parallel "$jobs" --output-on-failure "${@:2}"; }
+
+gate_format() { bash tests/gates/format.sh; }
+gate_gcc() { configure gcc gcc g++ && compile gcc && run_tests gcc; }
+gate_clang() { configure clang clang clang++ && compile clang && run_tests clang; }
+# The core and its tests, with nothing of a vendor or of the host tools.
+gate_core() {
+  configure core gcc g++ -DTOUCHLINE_BACKENDS=OFF -DTOUCHLINE_HOST=OFF && compile core && run_tests core || return 1
+  if grep -nE 'hal/linux|libv4l|libgpiod|-lgpiod|hidapi' "$checks/core/build.ninja" "$checks/core/compile_commands.json"; then
+    echo "core: the build without backends still names a vendor's package"
+    return 1
+  fi
+}
+gate_sanitize() {
+  configure sanitize gcc g++ -DTOUCHLINE_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' \
+    -DCMAKE_C_FLAGS_RELWITHDEBINFO='-O1 -g' && compile sanitize && run_tests sanitize
+}
+gate_tidy() { configure clang clang clang++ && bash tests/gates/tidy.sh "$checks/clang"; }
+
+all=(format gcc clang core sanitize tidy)
+mkdir -p "$checks"
+for gate in "${@:-${all[@]}}"; do
+  declare -F "gate_$gate" >/dev/null || { echo "all.sh: unknown gate '$gate' (${all[*]})" >&2; exit 2; }
+  echo "=== gate $gate"
+  started=$SECONDS
+  if ! "gate_$gate"; then
+    echo "=== gate $gate: FAILED after $((SECONDS - started)) s"
+    exit 1
+  fi
+  echo "=== gate $gate: passed in $((SECONDS - started)) s"
+done
