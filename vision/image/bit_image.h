@@ -31,17 +31,14 @@ struct BasicBitView {
     if (x < 0 || y < 0 || x >= width || y >= height) return false;
     return ((row(y)[x / bits_per_word] >> (x % bits_per_word)) & 1U) != 0;
   }
-  void set(int x, int y, bool value) const
-    requires(!std::is_const_v<W>)
-  {
+  void set(int x, int y, bool value) const requires(!std::is_const_v<W>) {
     assert(x >= 0 && x < width);
     const BitWord bit = BitWord{1} << (x % bits_per_word);
     W& word = row(y)[x / bits_per_word];
     word = value ? (word | bit) : (word & ~bit);
   }
   operator BasicBitView<const W>() const  // NOLINT: a writable view is a readable one
-    requires(!std::is_const_v<W>)
-  {
+      requires(!std::is_const_v<W>) {
     return {words, width, height, stride};
   }
 };
@@ -55,9 +52,7 @@ struct BitImage {
   static constexpr int max_height = H;
   std::array<BitWord, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> words{};
 
-  [[nodiscard]] BitView view(int width = W, int height = H) {
-    return {words.data(), width, height, words_for(width)};
-  }
+  [[nodiscard]] BitView view(int width = W, int height = H) { return {words.data(), width, height, words_for(width)}; }
   [[nodiscard]] ConstBitView view(int width = W, int height = H) const {
     return {words.data(), width, height, words_for(width)};
   }

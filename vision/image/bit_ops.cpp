@@ -76,7 +76,7 @@ int count(ConstBitView mask) {
   int sum = 0;
   for (int y = 0; y < mask.height; ++y) {
     const BitWord* row = mask.row(y);
-    for (int i = 0; i < words; ++i) sum += std::popcount(row[i]);
+    for (int i = 0; i < words; ++i) sum += bits_set(row[i]);
   }
   return sum;
 }

@@ -17,6 +17,18 @@ constexpr BitWord last_word_mask(int width) {
   return used == 0 ? ~BitWord{0} : (BitWord{1} << used) - 1;
 }
 
+/// Set bits of a word, in plain arithmetic: std::popcount calls the compiler's library where the processor has no such
+/// instruction, and these sums are vectorised.
+constexpr int bits_set(BitWord word) {
+  word -= (word >> 1) & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + ((word >> 2) & 0x3333333333333333U);
+  word = (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+  word += word >> 8;
+  word += word >> 16;
+  word += word >> 32;
+  return static_cast<int>(word & 0x7FU);
+}
+
 void clear(BitView mask);
 void fill(BitView mask);
 void copy(ConstBitView from, BitView to);

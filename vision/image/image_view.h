@@ -27,8 +27,7 @@ struct ImageView {
     return row(y)[x];
   }
   operator ImageView<const T>() const  // NOLINT: a writable view is a readable one
-    requires(!std::is_const_v<T>)
-  {
+      requires(!std::is_const_v<T>) {
     return {data, width, height, stride};
   }
 };
@@ -54,8 +53,7 @@ struct Yuv420 {
   ImageView<T> cr;
 
   operator Yuv420<const T>() const  // NOLINT: a writable view is a readable one
-    requires(!std::is_const_v<T>)
-  {
+      requires(!std::is_const_v<T>) {
     return {y, cb, cr};
   }
 };
