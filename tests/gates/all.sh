@@ -9,15 +9,20 @@ jobs=$(nproc)
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
 
+# A good step says one line, a bad one all it has.
+quietly() {  # quietly LOG COMMAND...
+  "${@:2}" >"$1" 2>&1 || { cat "$1"; return 1; }
+}
 configure() {  # configure NAME CC CXX CMAKE_ARGUMENT...
   local name=$1 cc=$2 cxx=$3
   shift 3
-  cmake -S . -B "$checks/$name" -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" "${launcher[@]}" "$@" \
-    >"$checks/$name.log" 2>&1 || { cat "$checks/$name.log"; return 1; }
+  quietly "$checks/$name.log" cmake -S . -B "$checks/$name" -G Ninja -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" "${launcher[@]}" "$@"
 }
-# Only the end of a good build's log is worth reading, all of a bad one's.
-compile() { cmake --build "$checks/$1" --parallel "$jobs" -- "${@:2}" >"$checks/$1.log" 2>&1 || { cat "$checks/$1.log"; return 1; }; }
-run_tests() { ctest --test-dir "$checks/$1" --parallel "$jobs" --output-on-failure "${@:2}"; }
+compile() { quietly "$checks/$1.log" cmake --build "$checks/$1" --parallel "$jobs" "${@:2}"; }
+run_tests() {
+  quietly "$checks/$1.test.log" ctest --test-dir "$checks/$1" --parallel "$jobs" --output-on-failure "${@:2}" || return 1
+  grep -E 'tests passed|Total Test time' "$checks/$1.test.log"
+}
 
 gate_format() { bash tests/gates/format.sh; }
 gate_gcc() { configure gcc gcc g++ && compile gcc && run_tests gcc; }
