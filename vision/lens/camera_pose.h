@@ -32,7 +32,8 @@ class GroundProjection {
   [[nodiscard]] bool ground(const PixelPoint& pixel, GroundPoint& point) const;
   /// The ray of a pixel in the robot's axes (unit vector); false outside the lens.
   [[nodiscard]] bool robot_ray(const PixelPoint& pixel, Vec3& ray) const;
-  /// The ground point where a ray of the robot's axes, from the camera, meets the carpet; false at or above the horizon.
+  /// The ground point where a ray of the robot's axes, from the camera, meets the carpet; false at or above the
+  /// horizon.
   [[nodiscard]] bool intersect_ground(const Vec3& robot_ray, GroundPoint& point) const;
   /// False when the point lies beyond the lens.
   [[nodiscard]] bool pixel(const GroundPoint& point, PixelPoint& pixel) const;

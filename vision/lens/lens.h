@@ -13,12 +13,12 @@
 namespace touchline {
 
 enum class LensModel : std::uint8_t {
-  equidistant,    // r = f theta
-  equisolid,      // r = 2 f sin(theta / 2)
-  rectilinear,    // r = f tan(theta)
-  kannala_brandt, // r = f (theta + k1 theta^3 + k2 theta^5 + k3 theta^7 + k4 theta^9)
-  barrel,         // eq. (2): r_c = r_d / (1 - alpha r_d^2), theta = atan(r_c / f)
-  polynomial,     // eqs. (3)-(4): r_c = sum a_i r_d^i, phi_c = sum b_i phi_d^i, theta = atan(r_c / f)
+  equidistant,     // r = f theta
+  equisolid,       // r = 2 f sin(theta / 2)
+  rectilinear,     // r = f tan(theta)
+  kannala_brandt,  // r = f (theta + k1 theta^3 + k2 theta^5 + k3 theta^7 + k4 theta^9)
+  barrel,          // eq. (2): r_c = r_d / (1 - alpha r_d^2), theta = atan(r_c / f)
+  polynomial,      // eqs. (3)-(4): r_c = sum a_i r_d^i, phi_c = sum b_i phi_d^i, theta = atan(r_c / f)
 };
 
 struct LensParameters {
@@ -26,10 +26,11 @@ struct LensParameters {
   float focal_px = 0.0F;
   float cx = 0.0F;  // principal point, continuous camera pixels
   float cy = 0.0F;
-  float max_theta = 0.0F;  // radians; nothing is seen beyond
-  std::array<float, 4> k{};            // kannala_brandt: k1..k4
-  float alpha = 0.0F;                  // barrel: 1/px^2
-  std::array<float, 8> a{};            // polynomial: a0..a7 (degree 5: the last two are 0)
+  float max_theta = 0.0F;    // radians, at most pi; nothing is seen beyond. Lens::create lowers it to 89.9 degrees for
+                             // the models that go through the pinhole's image (rectilinear, barrel, polynomial)
+  std::array<float, 4> k{};  // kannala_brandt: k1..k4
+  float alpha = 0.0F;        // barrel: 1/px^2
+  std::array<float, 8> a{};  // polynomial: a0..a7 (degree 5: the last two are 0)
   std::array<float, 8> b{0.0F, 1.0F};  // polynomial: b0..b7
 };
 
@@ -43,7 +44,8 @@ class Lens {
 
   /// False when no ray within max_theta ends at this pixel; then `ray` is unchanged.
   [[nodiscard]] bool ray(const PixelPoint& pixel, Vec3& ray) const;
-  /// False when the ray is beyond max_theta; then `pixel` is unchanged. `ray` need not be a unit vector, nor zero.
+  /// False when the ray is beyond max_theta; then `pixel` is unchanged. `ray` need not be a
+  /// unit vector; the zero vector ends nowhere.
   [[nodiscard]] bool pixel(const Vec3& ray, PixelPoint& pixel) const;
   /// Radius of the image circle, camera pixels.
   [[nodiscard]] float max_radius() const { return max_radius_; }
@@ -52,6 +54,7 @@ class Lens {
  private:
   LensParameters parameters_{};
   float max_radius_ = 0.0F;
+  bool bends_angle_ = false;  // b of the polynomial is not the identity
 };
 
 }  // namespace touchline
