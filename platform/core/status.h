@@ -6,6 +6,8 @@
 
 namespace touchline {
 
+// clang-format 14 takes the attribute for the start of an initialiser list.
+// clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
   ok,
   invalid_argument,  // a parameter is outside its documented range (NaN counts as outside)
@@ -20,6 +22,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
   device_error,      // the operating system or the device refused
   end_of_data,       // a recording is over; nothing more will come
 };
+// clang-format on
 
 /// English name of the status, for logs; never null.
 const char* to_string(Status status);
