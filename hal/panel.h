@@ -32,16 +32,11 @@ enum class LedPattern : std::uint8_t {
 constexpr bool led_is_on(LedPattern pattern, MonotonicNs time) {
   const MonotonicNs ms = (time / one_millisecond) % 1000;
   switch (pattern) {
-    case LedPattern::off:
-      return false;
-    case LedPattern::no_camera:
-      return ms < 100 || (ms >= 200 && ms < 300);
-    case LedPattern::searching:
-      return ms < 500;
-    case LedPattern::sure:
-      return true;
-    case LedPattern::fault:
-      return ms % 200 < 100;
+    case LedPattern::off: return false;
+    case LedPattern::no_camera: return ms < 100 || (ms >= 200 && ms < 300);
+    case LedPattern::searching: return ms < 500;
+    case LedPattern::sure: return true;
+    case LedPattern::fault: return ms % 200 < 100;
   }
   return false;
 }
