@@ -40,7 +40,9 @@ rule platform/core 'platform/core/' "$std_allowed"
 rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+"
 rule loc 'platform/core/|vision/|loc/' "$std_allowed|Eigen/[A-Za-z]+"
 # hal: interfaces and codecs are core; backends may use the operating system.
-rule hal 'platform/core/|hal/' "$std_allowed" '^hal/(linux|mock|replay)/'
+rule hal 'platform/core/|hal/' "$std_allowed" '^hal/(linux|mock|replay|firmware)/'
+# What goes into a controller's firmware is C99 and stands alone.
+rule hal/firmware '$^' 'stdint\.h'
 
 # The installed headers need no other package.
 while IFS= read -r hit; do
