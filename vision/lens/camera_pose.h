@@ -39,13 +39,16 @@ class GroundProjection {
   [[nodiscard]] bool pixel(const GroundPoint& point, PixelPoint& pixel) const;
   /// Likewise for a point `z` metres above the carpet.
   [[nodiscard]] bool pixel(const GroundPoint& point, float z, PixelPoint& pixel) const;
-  /// What `sigma_px` (camera pixels) and `sigma_tilt` (radians of pitch and of roll, each) mean on the ground there.
+  /// What `sigma_px` (camera pixels, along u and v each) and `sigma_tilt` (radians of pitch and of roll, each) mean on
+  /// the ground there, m^2, to first order. A pixel that sees no ground: a million m^2 on the diagonal.
   [[nodiscard]] Sym2 ground_covariance(const PixelPoint& pixel, float sigma_px, float sigma_tilt) const;
 
   [[nodiscard]] const CameraPose& pose() const { return pose_; }
   [[nodiscard]] const Lens& lens() const { return lens_; }
 
  private:
+  [[nodiscard]] Vec3 ray_slope(const PixelPoint& pixel, const Vec3& centre, float du, float dv) const;
+
   Lens lens_{};
   CameraPose pose_{};
   Mat3 rotation_{};  // robot_from_camera(pose_)
