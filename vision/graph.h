@@ -21,8 +21,8 @@ struct MajorNode {
 inline constexpr int max_degree = 8;  // a pixel has eight neighbours
 struct GraphNode {
   GridPoint at;
-  std::uint8_t degree = 0;                  // edge ends that meet here; a loop counts twice
-  std::uint16_t edge[max_degree] = {};      // indices of those edges
+  std::uint8_t degree = 0;              // edge ends that meet here; a loop counts twice
+  std::uint16_t edge[max_degree] = {};  // indices of those edges
 };
 
 /// A stretch of skeleton between two nodes (or from a node to a free end: then node_b is no_node).

@@ -14,11 +14,12 @@ namespace touchline {
 struct FrameInput {
   FrameView image;
   double time_s = 0.0;
-  CameraPose camera;      // at the time of the frame
-  Pose2 odometry;         // robot's step since the frame before, robot's frame; only used to see that it moved
+  CameraPose camera;  // at the time of the frame
+  Pose2 odometry;     // robot's step since the frame before, robot's frame; only used to see that it moved
 };
 
-/// Views of all memory that the chain works in; made by PipelineStorage<W, H, Depth>. (Members: see pipeline.cpp's needs.)
+/// Views of all memory that the chain works in; made by PipelineStorage<W, H, Depth>. (Members: see pipeline.cpp's
+/// needs.)
 struct PipelineMemory;
 
 class Pipeline {

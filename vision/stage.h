@@ -7,18 +7,18 @@
 namespace touchline {
 
 enum class Stage : std::uint8_t {
-  average,       // subsample and mean of the FIFO (paper IV-A)
-  green,         // HSV, min-max filter, erosion, dilation (IV-B)
-  roi,           // contours, largest blob, convex hull (IV-B)
-  candidates,    // white search and Canny in the ROI (IV-C)
-  line_mask,     // dilation, erosion (IV-C)
-  thinning,      // Zhang-Suen (IV-C)
-  digestion,     // major nodes (IV-D)
-  graph,         // node graph (IV-E)
-  junctions,     // X, T, L, centre circle (IV-E)
-  posts,         // goal posts (VII)
-  line_points,   // skeleton points on the ground, for the full model
-  localize,      // feature manager and particle filter (V, VI)
+  average,      // subsample and mean of the FIFO (paper IV-A)
+  green,        // HSV, min-max filter, erosion, dilation (IV-B)
+  roi,          // contours, largest blob, convex hull (IV-B)
+  candidates,   // white search and Canny in the ROI (IV-C)
+  line_mask,    // dilation, erosion (IV-C)
+  thinning,     // Zhang-Suen (IV-C)
+  digestion,    // major nodes (IV-D)
+  graph,        // node graph (IV-E)
+  junctions,    // X, T, L, centre circle (IV-E)
+  posts,        // goal posts (VII)
+  line_points,  // skeleton points on the ground, for the full model
+  localize,     // feature manager and particle filter (V, VI)
   count,
 };
 

@@ -23,9 +23,9 @@ inline constexpr std::size_t max_mask_polygon_points = 12;  // enough for a foot
 using MaskPolygon = StaticVector<PixelPoint, max_mask_polygon_points>;
 
 struct VisionConfig {
-  int frame_width = 752;   // camera pixels; the paper's camera
+  int frame_width = 752;  // camera pixels; the paper's camera
   int frame_height = 480;
-  int fifo_depth = 4;      // frames in the mean, 1..8 (paper section IV-A; the storage may allow fewer)
+  int fifo_depth = 4;  // frames in the mean, 1..8 (paper section IV-A; the storage may allow fewer)
 
   HsvRange green{35, 90, 50, 255, 20, 255};
   HsvRange yellow_post{18, 34, 110, 255, 60, 255};
@@ -34,13 +34,14 @@ struct VisionConfig {
   int line_dilate_px = 3;   // joins both edges of a line
   int line_erode_px = 3;
 
-  float line_width_m = 0.05F;     // of the field
+  float line_width_m = 0.05F;  // of the field
   float post_diameter_m = 0.10F;
-  bool white_posts = false;       // search white posts in place of yellow ones
+  bool white_posts = false;  // search white posts in place of yellow ones
 
   int digestion_radius_px = 5;  // paper section IV-D
-  int low_weight = 1, medium_weight = 10, high_weight = 100;  // low << medium << high: a long line must not eat a junction
-  int spur_px = 6;              // a free-ended edge shorter than this is a spur
+  int low_weight = 1, medium_weight = 10,
+      high_weight = 100;  // low << medium << high: a long line must not eat a junction
+  int spur_px = 6;        // a free-ended edge shorter than this is a spur
 
   float max_range_m = 6.0F;  // junctions farther than this are not reported: a pixel is then wider than a line
   StaticVector<MaskPolygon, max_mask_polygons> body_mask;  // camera pixels; where the robot sees itself

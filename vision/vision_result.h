@@ -15,8 +15,8 @@
 namespace touchline {
 
 struct VisionCounts {
-  int frames_in_mean = 0;       // 1..depth
-  int frames_left_out = 0;      // held in the FIFO, but moved by more than about a working pixel
+  int frames_in_mean = 0;   // 1..depth
+  int frames_left_out = 0;  // held in the FIFO, but moved by more than about a working pixel
   int green_pixels = 0;
   int roi_pixels = 0;
   int candidate_pixels = 0;
@@ -26,7 +26,7 @@ struct VisionCounts {
   // What found no room; the partial result is valid.
   int dropped_contour_points = 0;
   int dropped_blobs = 0;
-  int dropped_edge_seeds = 0;   // Canny hysteresis stack
+  int dropped_edge_seeds = 0;  // Canny hysteresis stack
   int dropped_nodes = 0;
   int dropped_edges = 0;
   int dropped_points = 0;
@@ -39,12 +39,12 @@ struct VisionResult {
   GroundProjection projection;  // lens and attitude that the features were measured with
   int work_width = 0;
   int work_height = 0;
-  ConstYuv420View mean;         // working size
-  ConstBitView green;           // after erosion and dilation
-  ConstBitView field;           // the largest blob
+  ConstYuv420View mean;  // working size
+  ConstBitView green;    // after erosion and dilation
+  ConstBitView field;    // the largest blob
   std::span<const GridPoint> hull;
   ConstBitView roi;
-  ConstBitView candidates;      // white search united with Canny
+  ConstBitView candidates;  // white search united with Canny
   ConstBitView line_mask;
   ConstBitView skeleton;
   LineWidthView line_widths;

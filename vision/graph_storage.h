@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory of digestion and node graph for working images of up to W x H pixels.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "vision/digestion.h"
+#include "vision/node_graph.h"
+#include "vision/skeleton_index.h"
+
+namespace touchline {
+
+/// Views of all of it; what the stages take.
+struct GraphMemory {
+  SkeletonIndexMemory index;
+  DigestionMemory digestion;
+  NodeGraphMemory graph;
+};
+
+template <int W, int H>
+struct GraphStorage {
+  static constexpr std::size_t area = static_cast<std::size_t>(W) * static_cast<std::size_t>(H);
+  // The longest skeletons of field lines seen at 320x240 have about 1,500 pixels; one pixel in 16 is three times that.
+  // Only noise has more, and then the rows nearest to the robot are kept.
+  static constexpr std::size_t max_pixels = area / 16;
+  // Major nodes lie farther apart than the digestion radius, so a line of n pixels has n / 5; forks come on top. A
+  // quarter of the pixels is reached by noise alone.
+  static constexpr std::size_t max_nodes = max_pixels / 4;
+  static constexpr std::size_t max_edges = max_nodes * 3 / 2;            // most nodes have two ways, forks three
+  static constexpr std::size_t max_points = max_pixels + 2 * max_edges;  // each pixel once, and both ends of every edge
+  static constexpr std::size_t tiles_a_row = (W + 7) / 8;
+  static constexpr std::size_t tile_rows = (H + 7) / 8;
+  static_assert(max_pixels < no_pixel, "pixels are numbered with 16 bits");
+
+  std::array<GridPoint, max_pixels> pixels{};
+  std::array<std::uint16_t, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> pixels_before{};
+  std::array<BitWord, tiles_a_row * tile_rows> tiles{};
+  std::array<BitWord, static_cast<std::size_t>(words_for(static_cast<int>(tiles_a_row))) * tile_rows> tile_row_words{};
+  std::array<PixelIndex, max_pixels> parent{};
+  std::array<std::int32_t, max_pixels> weight{};
+  std::array<MajorNode, max_nodes> major_nodes{};
+  std::array<std::uint16_t, max_pixels> node_of{};
+  std::array<PixelIndex, max_pixels> cluster{};
+  std::array<std::uint16_t, max_pixels> stack{};
+  std::array<std::uint16_t, max_nodes> first_pixel{};
+  std::array<std::uint8_t, max_nodes> expanded{};
+  std::array<GraphNode, max_nodes> nodes{};
+  std::array<GraphEdge, max_edges> edges{};
+  std::array<GridPoint, max_points> points{};
+
+  [[nodiscard]] GraphMemory memory() {
+    return {{pixels, pixels_before},
+            {tiles, tile_row_words, parent, weight, major_nodes},
+            {node_of, cluster, stack, first_pixel, expanded, nodes, edges, points}};
+  }
+};
+
+}  // namespace touchline

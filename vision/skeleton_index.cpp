@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/skeleton_index.h"
+
+#include <array>
+#include <bit>
+
+#include "vision/image/bit_ops.h"
+
+namespace touchline {
+namespace {
+
+constexpr std::array<std::uint8_t, 256> make_step_table() {
+  std::array<std::uint8_t, 256> table{};
+  for (unsigned n = 0; n < 256; ++n) {
+    unsigned steps = n & 0x55U;  // the four straight neighbours
+    for (unsigned k = 1; k < 8; k += 2) {
+      const bool set = ((n >> k) & 1U) != 0;
+      const bool round_a_corner = ((n >> (k - 1)) & 1U) != 0 || ((n >> ((k + 1) & 7U)) & 1U) != 0;
+      if (set && !round_a_corner) steps |= 1U << k;
+    }
+    table[n] = static_cast<std::uint8_t>(steps);
+  }
+  return table;
+}
+constexpr std::array<std::uint8_t, 256> step_table = make_step_table();
+
+constexpr std::array<std::uint8_t, 256> make_count_table() {
+  std::array<std::uint8_t, 256> table{};
+  for (unsigned n = 0; n < 256; ++n) table[n] = static_cast<std::uint8_t>(bits_set(n));
+  return table;
+}
+constexpr std::array<std::uint8_t, 256> count_table = make_count_table();
+
+int count_row(ConstBitView image, int y) {
+  int count = 0;
+  for (int w = 0; w < words_for(image.width); ++w) count += bits_set(image.row(y)[w]);
+  return count;
+}
+
+}  // namespace
+
+std::uint8_t steps_of(std::uint8_t neighbours) { return step_table[neighbours]; }
+int count_of(std::uint8_t neighbours) { return count_table[neighbours]; }
+
+bool SkeletonIndex::build(ConstBitView skeleton) {
+  skeleton_ = skeleton;
+  size_ = 0;
+  dropped_ = 0;
+  const int words = words_for(skeleton.width);
+  if (memory_.pixels_before.size() < static_cast<std::size_t>(words) * static_cast<std::size_t>(skeleton.height)) {
+    skeleton_ = {};
+    return false;
+  }
+  const int capacity = static_cast<int>(memory_.pixels.size() < no_pixel ? memory_.pixels.size() : no_pixel);
+  int room = capacity;
+  first_row_ = skeleton.height;
+  for (int y = skeleton.height - 1; y >= 0; --y) {
+    const int in_row = count_row(skeleton, y);
+    room -= in_row;
+    if (room >= 0) {
+      first_row_ = y;
+    } else {
+      dropped_ += in_row;
+    }
+  }
+  for (int y = first_row_; y < skeleton.height; ++y) {
+    for (int w = 0; w < words; ++w) {
+      memory_.pixels_before[static_cast<std::size_t>(y * words + w)] = static_cast<std::uint16_t>(size_);
+      for (BitWord rest = skeleton.row(y)[w]; rest != 0; rest &= rest - 1) {
+        const int x = w * bits_per_word + std::countr_zero(rest);
+        memory_.pixels[static_cast<std::size_t>(size_++)] = {static_cast<std::int16_t>(x),
+                                                             static_cast<std::int16_t>(y)};
+      }
+    }
+  }
+  return true;
+}
+
+PixelIndex SkeletonIndex::at(int x, int y) const {
+  if (y < first_row_ || !skeleton_.get(x, y)) return no_pixel;
+  const int w = x / bits_per_word;
+  const BitWord below = (BitWord{1} << (x % bits_per_word)) - 1;
+  const int before = memory_.pixels_before[static_cast<std::size_t>(y * words_for(skeleton_.width) + w)];
+  return static_cast<PixelIndex>(before + bits_set(skeleton_.row(y)[w] & below));
+}
+
+unsigned SkeletonIndex::three(int x, int y) const {
+  if (y < first_row_ || y >= skeleton_.height) return 0;
+  const BitWord* row = skeleton_.row(y);
+  const int w = x / bits_per_word;
+  const int bit = x % bits_per_word;
+  if (bit == 0) {
+    const BitWord left = w > 0 ? row[w - 1] >> (bits_per_word - 1) : 0;
+    return static_cast<unsigned>(((row[w] & 3U) << 1) | left);
+  }
+  BitWord bits = row[w] >> (bit - 1);
+  if (bit == bits_per_word - 1 && w + 1 < words_for(skeleton_.width)) bits |= row[w + 1] << 2;
+  return static_cast<unsigned>(bits & 7U);
+}
+
+std::uint8_t SkeletonIndex::neighbours(GridPoint p) const {
+  const unsigned above = three(p.x, p.y - 1);
+  const unsigned here = three(p.x, p.y);
+  const unsigned below = three(p.x, p.y + 1);
+  const unsigned n = ((above >> 1) & 1U) | (((above >> 2) & 1U) << 1) | (((here >> 2) & 1U) << 2) |
+                     (((below >> 2) & 1U) << 3) | (((below >> 1) & 1U) << 4) | ((below & 1U) << 5) |
+                     ((here & 1U) << 6) | ((above & 1U) << 7);
+  return static_cast<std::uint8_t>(n);
+}
+
+}  // namespace touchline

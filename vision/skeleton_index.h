@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers the pixels of a skeleton in raster order, so that digestion (paper section IV-D) and the node graph (IV-E)
+// keep their state per skeleton pixel and not per image pixel: a skeleton covers about one pixel in fifty.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "vision/graph.h"
+#include "vision/image/bit_image.h"
+
+namespace touchline {
+
+/// Eight neighbours, one bit each, clockwise from north: N, NE, E, SE, S, SW, W, NW.
+constexpr int neighbour_dx[8] = {0, 1, 1, 1, 0, -1, -1, -1};
+constexpr int neighbour_dy[8] = {-1, -1, 0, 1, 1, 1, 0, -1};
+
+using PixelIndex = std::uint16_t;
+inline constexpr PixelIndex no_pixel = 0xFFFF;
+
+/// Memory of a SkeletonIndex.
+struct SkeletonIndexMemory {
+  std::span<GridPoint> pixels;             // capacity for skeleton pixels, at most 65,535
+  std::span<std::uint16_t> pixels_before;  // one a word of the mask
+};
+
+class SkeletonIndex {
+ public:
+  explicit SkeletonIndex(const SkeletonIndexMemory& memory) : memory_(memory) {}
+
+  /// Numbers the pixels of `skeleton`, which must stay as it is while the index is in use. When there are more than the
+  /// memory holds, the upper rows are left out (what is near the robot lies below) and their pixels counted in
+  /// dropped(). False when the memory has too few words for the mask.
+  bool build(ConstBitView skeleton);
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int dropped() const { return dropped_; }
+  [[nodiscard]] int width() const { return skeleton_.width; }
+  [[nodiscard]] int height() const { return skeleton_.height; }
+  /// Pixels in raster order.
+  [[nodiscard]] std::span<const GridPoint> pixels() const {
+    return memory_.pixels.first(static_cast<std::size_t>(size_));
+  }
+  [[nodiscard]] GridPoint pixel(PixelIndex i) const { return memory_.pixels[i]; }
+  /// The number of a pixel; no_pixel where the skeleton has none.
+  [[nodiscard]] PixelIndex at(int x, int y) const;
+  /// Bit k is set when the neighbour in direction k is a skeleton pixel.
+  [[nodiscard]] std::uint8_t neighbours(GridPoint p) const;
+
+ private:
+  [[nodiscard]] unsigned three(int x, int y) const;  // pixels x - 1, x, x + 1 of row y in bits 0, 1, 2
+
+  SkeletonIndexMemory memory_;
+  ConstBitView skeleton_{};
+  int first_row_ = 0;
+  int size_ = 0;
+  int dropped_ = 0;
+};
+
+/// Of eight neighbours, those that a walk steps to: a diagonal neighbour is left out when a straight one touches both
+/// it and the pixel. So a corner of a staircase has two ways on and not three ("mixed adjacency", Rosenfeld & Kak).
+std::uint8_t steps_of(std::uint8_t neighbours);
+/// How many of eight bits are set.
+int count_of(std::uint8_t neighbours);
+
+}  // namespace touchline
