@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mean over held frames. Up to eight bytes are summed in 16 bit and divided by one multiplication, exactly.
+#include "vision/image/frame_fifo.h"
+
+#include <algorithm>
+
+namespace touchline {
+namespace {
+
+using Plane = ImageView<std::uint8_t> Yuv420View::*;
+using Rows = std::array<const std::uint8_t*, max_fifo_depth>;
+
+/// out = (sum of N rows + N / 2) / N. The reciprocal is rounded up: with sums below 2^11 and N <= 8 the quotient is
+/// exact.
+template <int N>
+void mean_row(const Rows& rows, int width, std::uint8_t* out) {
+  constexpr std::uint32_t reciprocal = (65536U + N - 1) / N;
+  for (int x = 0; x < width; ++x) {
+    std::uint16_t sum = N / 2;
+    for (int i = 0; i < N; ++i) sum = static_cast<std::uint16_t>(sum + rows[static_cast<std::size_t>(i)][x]);
+    out[x] = static_cast<std::uint8_t>((sum * reciprocal) >> 16);
+  }
+}
+
+void mean_row(const Rows& rows, int frames, int width, std::uint8_t* out) {
+  switch (frames) {
+    case 2: return mean_row<2>(rows, width, out);
+    case 3: return mean_row<3>(rows, width, out);
+    case 4: return mean_row<4>(rows, width, out);
+    case 5: return mean_row<5>(rows, width, out);
+    case 6: return mean_row<6>(rows, width, out);
+    case 7: return mean_row<7>(rows, width, out);
+    default: return mean_row<8>(rows, width, out);
+  }
+}
+
+void mean_plane(std::span<const Yuv420View> frames, Plane plane, const ImageView<std::uint8_t>& out) {
+  for (int y = 0; y < out.height; ++y) {
+    Rows rows{};
+    for (std::size_t i = 0; i < frames.size(); ++i) rows[i] = (frames[i].*plane).row(y);
+    mean_row(rows, static_cast<int>(frames.size()), out.width, out.row(y));
+  }
+}
+
+}  // namespace
+
+FrameFifo::FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean) : depth_(slots.size()), mean_(mean) {
+  assert(!slots.empty() && slots.size() <= slots_.size());
+  std::copy(slots.begin(), slots.end(), slots_.begin());
+}
+
+void FrameFifo::push() {
+  next_ = (next_ + 1) % depth();
+  size_ = std::min(size_ + 1, depth());
+}
+
+void FrameFifo::reset() {
+  next_ = 0;
+  size_ = 0;
+  frames_in_mean_ = 0;
+}
+
+ConstYuv420View FrameFifo::mean_of_still(std::span<const bool> still) {
+  assert(size_ > 0);
+  std::array<Yuv420View, max_fifo_depth> frames{};
+  std::size_t count = 0;
+  for (int age = 0; age < size_; ++age) {
+    const auto i = static_cast<std::size_t>(age);
+    if (age > 0 && (i >= still.size() || !still[i])) continue;
+    frames[count++] = slots_[static_cast<std::size_t>((next_ + depth() - 1 - age) % depth())];
+  }
+  frames_in_mean_ = static_cast<int>(count);
+  if (count == 1) return frames[0];
+  const std::span<const Yuv420View> used = std::span<const Yuv420View>(frames).first(count);
+  mean_plane(used, &Yuv420View::y, mean_.y);
+  mean_plane(used, &Yuv420View::cb, mean_.cb);
+  mean_plane(used, &Yuv420View::cr, mean_.cr);
+  return mean_;
+}
+
+}  // namespace touchline

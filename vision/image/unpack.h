@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// One row of a frame as three interleaved bytes a pixel, whatever the camera sends.
+#pragma once
+
+#include "vision/image/frame.h"
+
+namespace touchline {
+
+/// Row y of the frame as width * 3 bytes: R G B, B G R, or (yuyv) Y Cb Cr with each chroma sample for both of its
+/// pixels. Where the camera's bytes are already so, they are returned in place; else they go to `buffer` of width * 3.
+const std::uint8_t* unpack_row(const FrameView& frame, int y, std::uint8_t* buffer);
+
+}  // namespace touchline
