@@ -5,12 +5,9 @@
 #include <cstdint>
 #include <span>
 
-namespace touchline {
+#include "vision/image/grid_point.h"
 
-struct GridPoint {  // a working pixel
-  std::int16_t x = 0;
-  std::int16_t y = 0;
-};
+namespace touchline {
 
 /// A major node that digestion left alive (Algorithm 1).
 struct MajorNode {

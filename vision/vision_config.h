@@ -8,15 +8,9 @@
 
 #include "platform/core/geometry.h"
 #include "platform/core/static_vector.h"
+#include "vision/image/hsv.h"
 
 namespace touchline {
-
-/// HSV ranges: hue 0..179 (2 degrees a step, the convention of teams' colour files), saturation and value 0..255.
-struct HsvRange {
-  std::uint8_t hue_low = 0, hue_high = 179;
-  std::uint8_t saturation_low = 0, saturation_high = 255;
-  std::uint8_t value_low = 0, value_high = 255;
-};
 
 inline constexpr std::size_t max_mask_polygons = 4;         // two feet, two hands
 inline constexpr std::size_t max_mask_polygon_points = 12;  // enough for a foot's outline

@@ -6,7 +6,6 @@
 #include <bit>
 #include <span>
 
-#include "vision/graph.h"
 #include "vision/image/bit_image.h"
 
 namespace touchline {
