@@ -35,7 +35,7 @@ check:  ## all gates: both compilers, sanitizers, format, lint, golden outputs (
 	@bash tests/gates/all.sh
 
 golden: build  ## writes the golden outputs anew, for changes of behaviour that are meant
-	@$(BUILD)/tests/golden/golden_outputs --write tests/golden/expected
+	@$(BUILD)/tests/golden/golden_outputs --write tests/golden/expected fixtures
 	@git --no-pager diff --stat -- tests/golden 2>/dev/null || true
 
 accept: build  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
