@@ -4,51 +4,95 @@
 
 #include <cstdint>
 
+#include "loc/augmented_mcl.h"
+#include "loc/clusters.h"
+#include "loc/feature_manager.h"
 #include "loc/field.h"
-#include "platform/core/geometry.h"
+#include "loc/full_likelihood.h"
+#include "loc/distance_field.h"
+#include "loc/localizer_config.h"
+#include "loc/observation.h"
+#include "loc/particles.h"
+#include "loc/pose_candidates.h"
+#include "loc/pose_estimate.h"
+#include "loc/refinement.h"
+#include "loc/yaw_tracker.h"
+#include "platform/core/rng.h"
 #include "platform/core/status.h"
 #include "vision/stage.h"
 #include "vision/vision_result.h"
 
 namespace touchline {
 
-enum class LocModel : std::uint8_t {
-  paper,  // X, T, L (or posts) with eq. (5); no line points, no circle, no refinement
-  full,   // all the picture has; the default
-};
-enum class Landmarks : std::uint8_t { lines, goalposts, both };
-enum class PriorKind : std::uint8_t { uniform, own_half, touch_line, pose };
-
-struct Prior {
-  PriorKind kind = PriorKind::uniform;
-  Pose2 pose;                          // PriorKind::pose
-  float sigma_xy = 0.3F;               // metres
-  float sigma_theta = radians(15.0F);  // radians
-};
-
 struct LocalizerInput {
   double time_s = 0.0;
   Pose2 odometry;        // robot's step since the update before, as the gait believes it
   bool has_yaw = false;
   float yaw = 0.0F;      // IMU yaw minus the stored goal yaw: theta up to noise and drift, radians
-  bool moved_by_hand = false;  // fallen, lifted: the odometry is void and the pose may be anywhere near
+  bool moved_by_hand = false;  // fallen or lifted since the update before: the odometry is void, the pose may be anywhere
 };
 
-struct PoseCovariance {  // of (x, y, theta): m^2, m rad, rad^2
-  float xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
-};
+/// Owns all memory of localization. About 110 KiB, most of it the distance map and the line samples.
+class Localizer {
+ public:
+  /// invalid_argument: a value is not finite or out of range; `what` names the key, when not null, and nothing changes.
+  Status configure(const LocalizerConfig& config, const Field& field, const char** what = nullptr);
+  /// Forgets the pose and draws the particles from `prior`. The seed is the caller's: the same seed, the same poses.
+  void reset(const Prior& prior, std::uint64_t seed);
+  /// One frame. invalid_argument (NaN in the input), not_ready (not configured or reset): nothing has changed.
+  Status update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
+                StageObserver* observer = nullptr);
 
-struct PoseEstimate {
-  bool valid = false;          // false: no pose (yet); the rest is then void
-  Pose2 pose;                  // of the best cluster, never the mean over two modes
-  PoseCovariance covariance;
-  float confidence = 0.0F;     // [0, 1]: share of belief in this cluster, and how well it explains the picture
-  bool has_mirror = false;     // the mirrored pose is still in the race
-  Pose2 mirror;
-  float mirror_confidence = 0.0F;
-  float pitch_error = 0.0F;    // radians, estimated error of the mount's pitch and roll (full model)
-  float roll_error = 0.0F;
-  float yaw_drift = 0.0F;      // radians, estimated: IMU yaw minus theta
+  [[nodiscard]] ParticleView particles() { return particles_.view(config_.particles); }
+  [[nodiscard]] const FeatureManager& features() const { return features_; }
+  [[nodiscard]] const LocalizerConfig& config() const { return config_; }
+  [[nodiscard]] const Field& field() const { return field_; }
+
+ private:
+  /// A cluster of particles, looked at closely.
+  struct Mode {
+    Refinement refined;
+    float evidence = 0.0F;  // nats: how well the refined pose explains the frame
+    float mass = 0.0F;      // belief, sums to 1 over the modes
+    bool tracked = false;   // continues the pose of the frame before
+  };
+  using ModeList = StaticVector<Mode, max_clusters>;
+
+  void draw_from_prior(const Prior& prior);
+  [[nodiscard]] Pose2 random_pose(const YawEvidence& yaw);
+  void predict(const LocalizerInput& input);
+  void update_full(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate);
+  void update_paper(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate);
+
+  // Steps of the full model, in this order (full_model.cpp).
+  float weigh_particles(const YawEvidence& yaw);
+  void inject_candidates(const YawEvidence& yaw, float share);
+  void refine_clusters(const VisionResult& vision, const YawEvidence& yaw);
+  void share_out_mass();
+  void sharpen_particles(const ClusterIndex& index);
+  void resample(const YawEvidence& yaw, float random_share);
+  void report_full(PoseEstimate& estimate);
+  void settle(PoseEstimate& estimate, float spread_m, float spread_rad);
+
+  LocalizerConfig config_{};
+  Field field_{};
+  DistanceField map_{};
+  Rng rng_{0};
+  ParticleStorage<max_particles> particles_{};
+  ParticleStorage<max_particles> scratch_{};
+  Observation observation_{};
+  CandidateList candidates_{};
+  ClusterList clusters_{};
+  ClusterIndex cluster_index_{};
+  ModeList modes_{};
+  FeatureManager features_{};
+  AugmentedMcl augmented_{};
+  YawTracker yaw_{};
+  PoseEstimate last_{};        // the pose of the frame before, moved by odometry
+  double last_time_s_ = 0.0;
+  int frames_ = 0;             // since the reset
+  int steady_frames_ = 0;      // in a row with a sure pose that did not move
+  bool configured_ = false;
 };
 
 }  // namespace touchline

@@ -37,6 +37,8 @@ struct VisionCounts {
 struct VisionResult {
   double time_s = 0.0;          // of the newest frame; the mean holds only frames of its attitude
   GroundProjection projection;  // lens and attitude that the features were measured with
+  int frame_width = 0;          // camera pixels
+  int frame_height = 0;
   int work_width = 0;
   int work_height = 0;
   ConstYuv420View mean;  // working size

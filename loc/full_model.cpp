@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// The full model: particles carry the belief; each of their clusters is refined by Gauss-Newton on the line points, and judged
+// by what the refined pose explains and by what it says must be there and is not. Mass is shared out among the
+// clusters by that evidence, and particles are drawn anew about the refined poses.
+#include "loc/localizer.h"
+#include "loc/motion_model.h"
+#include "loc/resampling.h"
+#include "loc/visibility.h"
+#include "platform/core/elementary.h"
+
+namespace touchline {
+namespace {
+
+constexpr float cluster_radius_m = 0.30F;
+constexpr float cluster_angle = radians(15.0F);
+constexpr float particle_sigma = 0.10F;     // m: spacing of particles about a mode
+constexpr float range_for_visibility = 3.0F;  // m: beyond, worn lines are missed too often to be held against a pose
+constexpr float missing_nats_per_metre = 4.0F;
+constexpr float temper = 0.5F;              // measurements share the frame's errors: half of what independence would give
+constexpr float max_step_nats = 5.0F;       // what one frame may say at most: one bad frame must not lose the pose
+constexpr float search_share = 0.10F;       // of AMCL: from here on the frame's own candidates are looked for
+
+struct Factor {  // lower-triangular square root of a 3x3 covariance
+  float l00, l10, l11, l20, l21, l22;
+};
+Factor square_root(const PoseCovariance& c) {
+  Factor f{};
+  f.l00 = math::sqrt(math::max(c.xx, 1e-8F));
+  f.l10 = c.xy / f.l00;
+  f.l11 = math::sqrt(math::max(c.yy - f.l10 * f.l10, 1e-8F));
+  f.l20 = c.xt / f.l00;
+  f.l21 = (c.yt - f.l20 * f.l10) / f.l11;
+  f.l22 = math::sqrt(math::max(c.tt - f.l20 * f.l20 - f.l21 * f.l21, 1e-8F));
+  return f;
+}
+
+bool near(const Pose2& a, const Pose2& b, float distance, float angle) {
+  return math::hypot(a.x - b.x, a.y - b.y) < distance && math::abs(angle_difference(a.theta, b.theta)) < angle;
+}
+
+}  // namespace
+
+void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate) {
+  const float average = weigh_particles(yaw);
+  if (observation_.line_weight > 1.0F) augmented_.update(average, config_.augmented);
+  const float share = frames_ == 0 ? 0.5F : augmented_.random_share(config_.augmented);
+  const bool unsure = !last_.valid || last_.confidence < config_.confident;
+  if (unsure || share > search_share) inject_candidates(yaw, math::max(share, unsure ? 0.25F : 0.0F));
+  find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
+  refine_clusters(vision, yaw);
+  share_out_mass();
+  sharpen_particles(cluster_index_);
+  report_full(estimate);
+  settle(estimate, 0.01F, radians(0.5F));
+  resample(yaw, math::min(share, 0.3F));
+}
+
+/// Log likelihood of every particle; returns the mean over the particles of the likelihood per measurement, in (0, 1].
+float Localizer::weigh_particles(const YawEvidence& yaw) {
+  const ParticleView p = particles();
+  float sum = 0.0F;
+  const float per_measurement = 1.0F / math::max(observation_.line_weight, 1.0F);
+  for (int i = 0; i < p.count; ++i) {
+    const Pose2 pose = p.pose(i);
+    const float lines = line_log_likelihood(map_, observation_, pose, particle_sigma);
+    const float landmarks = landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma);
+    p.log_weight[i] = temper * (lines + landmarks) + yaw_log_likelihood(yaw, pose.theta);
+    sum += math::exp(lines * per_measurement);
+  }
+  return sum / static_cast<float>(p.count);
+}
+
+/// Puts the frame's own candidates in place of the lightest particles: `share` of all, the best candidates first.
+void Localizer::inject_candidates(const YawEvidence& yaw, float share) {
+  find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
+  if (candidates_.empty()) return;
+  const ParticleView p = particles();
+  const int count = math::min(share, 0.5F) * static_cast<float>(p.count) < 1.0F
+                        ? 1
+                        : static_cast<int>(math::min(share, 0.5F) * static_cast<float>(p.count));
+  // Stratified by weight rank would need a sort; the tail of a resampled set is as good as any other part of it.
+  for (int k = 0; k < count; ++k) {
+    const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % candidates_.size()];
+    const int i = p.count - 1 - k;
+    Pose2 pose = c.pose;
+    if (static_cast<std::size_t>(k) >= candidates_.size()) {
+      pose.x += 0.08F * rng_.gaussian();
+      pose.y += 0.08F * rng_.gaussian();
+      pose.theta = wrap_angle(pose.theta + 0.05F * rng_.gaussian());
+    }
+    p.set_pose(i, pose);
+    p.log_weight[i] = temper * (line_log_likelihood(map_, observation_, pose, particle_sigma) +
+                                landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma)) +
+                      yaw_log_likelihood(yaw, pose.theta);
+  }
+}
+
+void Localizer::refine_clusters(const VisionResult& vision, const YawEvidence& yaw) {
+  modes_.clear();
+  for (const Cluster& cluster : clusters_) {
+    Mode mode;
+    mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
+    RefinementPrior prior;
+    prior.tilt_sigma = config_.tilt_sigma;
+    prior.has_yaw = yaw.known;
+    prior.yaw = yaw.theta;
+    prior.yaw_sigma = yaw.sigma;
+    prior.has_pose = mode.tracked;
+    prior.pose = last_.pose;
+    prior.covariance = last_.covariance;
+    const Pose2 start = mode.tracked ? last_.pose : cluster.mean;
+    mode.refined = refine_pose(field_, observation_.lines.span(), observation_.camera, start, prior,
+                               mode.tracked ? 0.2F : 0.4F, mode.tracked ? 5 : 8);
+    if (observation_.line_weight < 1.0F || !mode.refined.converged) {  // nothing to refine on: the particles know best
+      mode.refined.pose = cluster.mean;
+      mode.refined.covariance = cluster.covariance;
+    }
+    const Visibility look = check_visibility(field_, vision, mode.refined, range_for_visibility);
+    mode.evidence =
+        temper * (mode.refined.line_log_likelihood - missing_nats_per_metre * look.missing +
+                  landmark_log_likelihood(field_, observation_, config_.landmarks, mode.refined.pose, 0.05F)) +
+        yaw_log_likelihood(yaw, mode.refined.pose.theta) -
+        0.5F * (math::square(mode.refined.pitch_error) + math::square(mode.refined.roll_error)) /
+            math::square(config_.tilt_sigma);
+    modes_.push_back(mode);
+  }
+}
+
+/// Belief of a mode: its particles before this frame, times what the frame says of its refined pose.
+void Localizer::share_out_mass() {
+  float best = -1e9F;
+  for (const Mode& m : modes_) best = math::max(best, m.evidence);
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const float prior = static_cast<float>(clusters_[i].count) / static_cast<float>(config_.particles);
+    modes_[i].mass = prior * math::exp(math::max(modes_[i].evidence - best, -max_step_nats));
+    sum += modes_[i].mass;
+  }
+  for (Mode& m : modes_) m.mass = sum > 0.0F ? m.mass / sum : 0.0F;
+}
+
+/// Every cluster's particles share its mass evenly, and stand about its refined pose.
+void Localizer::sharpen_particles(const ClusterIndex& index) {
+  const ParticleView p = particles();
+  for (int i = 0; i < p.count; ++i) {
+    const int k = index[static_cast<std::size_t>(i)];
+    if (k < 0) {
+      p.log_weight[i] = -20.0F;
+      continue;
+    }
+    const Mode& m = modes_[static_cast<std::size_t>(k)];
+    const auto count = static_cast<float>(clusters_[static_cast<std::size_t>(k)].count);
+    p.log_weight[i] = math::log(math::max(m.mass / math::max(count, 1.0F), 1e-12F));
+    if (!m.refined.converged) continue;
+    const Factor f = square_root(m.refined.covariance);
+    const float a = rng_.gaussian();
+    const float b = rng_.gaussian();
+    const float c = rng_.gaussian();
+    p.set_pose(i, {m.refined.pose.x + f.l00 * a, m.refined.pose.y + f.l10 * a + f.l11 * b,
+                   wrap_angle(m.refined.pose.theta + f.l20 * a + f.l21 * b + f.l22 * c)});
+  }
+}
+
+void Localizer::resample(const YawEvidence& yaw, float random_share) {
+  const ParticleView p = particles();
+  const int fresh = static_cast<int>(random_share * static_cast<float>(p.count));
+  resample_low_variance(p, p.count - fresh, scratch_.view(p.count), rng_);
+  for (int i = p.count - fresh; i < p.count; ++i) {
+    p.set_pose(i, random_pose(yaw));
+    p.log_weight[i] = 0.0F;
+  }
+}
+
+void Localizer::report_full(PoseEstimate& estimate) {
+  estimate = {};
+  const Mode* best = nullptr;
+  for (const Mode& m : modes_) {
+    // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
+    if (best == nullptr || m.mass * (m.tracked ? 2.0F : 1.0F) > best->mass * (best->tracked ? 2.0F : 1.0F)) best = &m;
+  }
+  if (best == nullptr || (observation_.line_weight < 0.5F && !last_.valid)) return;
+  estimate.valid = true;
+  estimate.pose = best->refined.pose;
+  estimate.covariance = best->refined.covariance;
+  estimate.explained = best->refined.explained;
+  estimate.pitch_error = best->refined.pitch_error;
+  estimate.roll_error = best->refined.roll_error;
+  const Pose2 twin = mirrored(estimate.pose);
+  float mass = 0.0F;
+  for (const Mode& m : modes_) {
+    if (near(m.refined.pose, twin, 0.4F, radians(20.0F))) {
+      estimate.has_mirror = true;
+      estimate.mirror = m.refined.pose;
+      estimate.mirror_confidence += m.mass;
+    } else if (near(m.refined.pose, estimate.pose, 0.15F, radians(8.0F))) {
+      mass += m.mass;
+    } else {  // law of total variance, taken about the best mode
+      const float dx = m.refined.pose.x - estimate.pose.x;
+      const float dy = m.refined.pose.y - estimate.pose.y;
+      const float dt = angle_difference(m.refined.pose.theta, estimate.pose.theta);
+      estimate.covariance.xx += m.mass * dx * dx;
+      estimate.covariance.xy += m.mass * dx * dy;
+      estimate.covariance.yy += m.mass * dy * dy;
+      estimate.covariance.xt += m.mass * dx * dt;
+      estimate.covariance.yt += m.mass * dy * dt;
+      estimate.covariance.tt += m.mass * dt * dt;
+    }
+  }
+  estimate.confidence = mass * math::min(1.0F, 1.5F * best->refined.explained);
+  if (observation_.line_weight < 1.0F) estimate.confidence = 0.9F * math::min(mass, last_.confidence);
+}
+
+}  // namespace touchline

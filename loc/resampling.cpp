@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loc/resampling.h"
+
+#include <cassert>
+
+#include "platform/core/elementary.h"
+
+namespace touchline {
+
+float normalize_log_weights(ParticleView particles) {
+  if (particles.count == 0) return 0.0F;
+  float best = particles.log_weight[0];
+  for (int i = 1; i < particles.count; ++i) best = math::max(best, particles.log_weight[i]);
+  for (int i = 0; i < particles.count; ++i) particles.log_weight[i] -= best;
+  return best;
+}
+
+float effective_count(ParticleView particles) {
+  normalize_log_weights(particles);
+  float sum = 0.0F;
+  float squares = 0.0F;
+  for (int i = 0; i < particles.count; ++i) {
+    const float w = math::exp(particles.log_weight[i]);
+    sum += w;
+    squares += w * w;
+  }
+  return squares > 0.0F ? sum * sum / squares : 0.0F;
+}
+
+void resample_low_variance(ParticleView particles, int keep, ParticleView scratch, Rng& rng) {
+  assert(keep >= 0 && keep <= particles.count && scratch.count >= particles.count);
+  if (keep == 0) return;
+  normalize_log_weights(particles);
+  float total = 0.0F;
+  for (int i = 0; i < particles.count; ++i) {
+    scratch.log_weight[i] = math::exp(particles.log_weight[i]);  // linear weight, for this call only
+    total += scratch.log_weight[i];
+  }
+  const float step = total / static_cast<float>(keep);
+  const float offset = step * rng.uniform();
+  float sum = scratch.log_weight[0];
+  int from = 0;
+  for (int i = 0; i < keep; ++i) {
+    const float target = offset + step * static_cast<float>(i);
+    while (sum < target && from + 1 < particles.count) sum += scratch.log_weight[++from];
+    scratch.set_pose(i, particles.pose(from));
+  }
+  for (int i = 0; i < keep; ++i) {
+    particles.set_pose(i, scratch.pose(i));
+    particles.log_weight[i] = 0.0F;
+  }
+}
+
+}  // namespace touchline

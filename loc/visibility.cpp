@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loc/visibility.h"
+
+#include "platform/core/elementary.h"
+
+namespace touchline {
+namespace {
+
+constexpr float spacing_m = 0.15F;
+constexpr int max_samples_per_line = 100;  // 14 m at 0.15 m
+constexpr int tolerance_px = 3;            // what the pose may be off in the picture (at 320 px width)
+
+struct Look {
+  const VisionResult& vision;
+  GroundProjection projection;
+  Pose2 pose;
+  float max_range;
+  float scale_u, scale_v;  // camera pixels to working pixels
+  int reach;
+  Visibility out;
+
+  bool working_pixel(const GroundPoint& g, int& x, int& y) const {
+    PixelPoint p;
+    if (!projection.pixel(g, p)) return false;
+    const float u = p.u * scale_u;
+    const float v = p.v * scale_v;
+    if (!(u >= 0.0F && v >= 0.0F)) return false;
+    x = static_cast<int>(u);
+    y = static_cast<int>(v);
+    return x < vision.work_width && y < vision.work_height;
+  }
+
+  [[nodiscard]] bool line_near(int x, int y) const {
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int dx = -reach; dx <= reach; ++dx) {
+        if (vision.line_mask.get(x + dx, y + dy)) return true;
+      }
+    }
+    return false;
+  }
+  /// Carpet all around: the sample and its neighbours at the tolerance are green.
+  [[nodiscard]] bool green_around(int x, int y) const {
+    return vision.green.get(x, y) && vision.green.get(x - reach, y) && vision.green.get(x + reach, y) &&
+           vision.green.get(x, y - reach) && vision.green.get(x, y + reach);
+  }
+
+  void sample(const FieldPoint& p) {
+    const GroundPoint g = to_ground(pose, p);
+    if (g.x * g.x + g.y * g.y > max_range * max_range) return;
+    int x = 0;
+    int y = 0;
+    if (!working_pixel(g, x, y) || !vision.roi.get(x, y)) return;
+    if (line_near(x, y)) {
+      out.seen += spacing_m;
+    } else if (green_around(x, y)) {
+      out.missing += spacing_m;
+    }
+  }
+
+  void segment(const FieldLine& line) {
+    const float dx = line.b.x - line.a.x;
+    const float dy = line.b.y - line.a.y;
+    const float length = math::abs(dx) + math::abs(dy);  // parallel to an axis
+    const int n = static_cast<int>(length / spacing_m);
+    for (int i = 0; i < n && i < max_samples_per_line; ++i) {
+      const float t = (static_cast<float>(i) + 0.5F) / static_cast<float>(n);
+      sample({line.a.x + t * dx, line.a.y + t * dy});
+    }
+  }
+
+  void circle(float radius) {
+    const int n = static_cast<int>(math::two_pi * radius / spacing_m);
+    for (int i = 0; i < n && i < max_samples_per_line; ++i) {
+      const float a = math::two_pi * static_cast<float>(i) / static_cast<float>(n);
+      sample({radius * math::cos(a), radius * math::sin(a)});
+    }
+  }
+};
+
+}  // namespace
+
+Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
+                            float max_range) {
+  CameraPose camera = vision.projection.pose();
+  camera.pitch += refined.pitch_error;
+  camera.roll += refined.roll_error;
+  const float su = static_cast<float>(vision.work_width) / static_cast<float>(vision.frame_width);
+  const float sv = static_cast<float>(vision.work_height) / static_cast<float>(vision.frame_height);
+  Look look{vision,
+            GroundProjection(vision.projection.lens(), camera),
+            refined.pose,
+            max_range,
+            su,
+            sv,
+            tolerance_px * vision.work_width / 320,
+            {}};
+  for (const FieldLine& line : field.lines()) look.segment(line);
+  if (field.dimensions().circle_radius > 0.0F) look.circle(field.dimensions().circle_radius);
+  return look.out;
+}
+
+}  // namespace touchline

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loc/resampling.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace touchline;
+
+namespace {
+struct Fixture {
+  ParticleStorage<100> storage, scratch;
+  ParticleView p = storage.view(100);
+  Fixture() {
+    for (int i = 0; i < 100; ++i) p.set_pose(i, {static_cast<float>(i), 0.0F, 0.0F});
+  }
+};
+}  // namespace
+
+TEST_CASE("equal weights: low-variance resampling keeps every particle once") {
+  Fixture f;
+  for (int i = 0; i < 100; ++i) f.p.log_weight[i] = -1234.5F;  // only differences count
+  CHECK(effective_count(f.p) == doctest::Approx(100.0));
+  Rng rng(7);
+  resample_low_variance(f.p, 100, f.scratch.view(100), rng);
+  for (int i = 0; i < 100; ++i) CHECK(f.p.x[i] == static_cast<float>(i));
+}
+
+TEST_CASE("a particle of weight w is drawn floor or ceil of w times n") {
+  Fixture f;
+  double total = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    f.p.log_weight[i] = -0.05F * static_cast<float>(i);
+    total += std::exp(-0.05 * i);
+  }
+  Rng rng(8);
+  resample_low_variance(f.p, 100, f.scratch.view(100), rng);
+  int counts[100] = {};
+  for (int i = 0; i < 100; ++i) ++counts[static_cast<int>(f.p.x[i])];
+  for (int i = 0; i < 100; ++i) {
+    const double expected = 100.0 * std::exp(-0.05 * i) / total;
+    CHECK(counts[i] >= std::floor(expected - 1e-3));
+    CHECK(counts[i] <= std::ceil(expected + 1e-3));
+  }
+}
+
+TEST_CASE("one particle with all the weight takes every place kept, the rest stay the caller's") {
+  Fixture f;
+  for (int i = 0; i < 100; ++i) f.p.log_weight[i] = i == 42 ? 0.0F : -200.0F;
+  CHECK(effective_count(f.p) == doctest::Approx(1.0));
+  Rng rng(9);
+  resample_low_variance(f.p, 60, f.scratch.view(100), rng);
+  for (int i = 0; i < 60; ++i) CHECK(f.p.x[i] == 42.0F);
+  CHECK(f.p.x[60] == 60.0F);
+}

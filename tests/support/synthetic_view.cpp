@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/synthetic_view.h"
+
+#include <doctest/doctest.h>
+
+#include "platform/core/elementary.h"
+
+namespace touchline::test {
+
+Lens paper_lens() {
+  LensParameters p;
+  p.model = LensModel::equidistant;
+  p.focal_px = 232.9F;
+  p.cx = 376.0F;
+  p.cy = 240.0F;
+  p.max_theta = radians(92.5F);
+  Lens lens;
+  REQUIRE(Lens::create(p, lens) == Status::ok);
+  return lens;
+}
+
+SyntheticView::SyntheticView(const Field& field, const Lens& lens, int frame_width, int frame_height)
+    : field_(field),
+      lens_(lens),
+      frame_width_(frame_width),
+      frame_height_(frame_height),
+      memory_(std::make_unique<Memory>()) {}
+
+bool SyntheticView::see(const GroundPoint& ground, float noise, Rng& rng, PixelPoint& pixel) const {
+  if (!true_projection_.pixel(ground, pixel)) return false;
+  pixel.u += noise * rng.gaussian();
+  pixel.v += noise * rng.gaussian();
+  return pixel.u > 1.0F && pixel.v > 1.0F && pixel.u < static_cast<float>(frame_width_) - 1.0F &&
+         pixel.v < static_cast<float>(frame_height_) - 1.0F;
+}
+
+void SyntheticView::add_line_point(const GroundProjection& told, const GroundPoint& ground, float direction,
+                                   float length, Rng& rng) {
+  if (ground.x * ground.x + ground.y * ground.y > options_.max_range * options_.max_range) return;
+  LinePoint p;
+  if (!see(ground, options_.pixel_noise, rng, p.pixel)) return;
+  const int x = static_cast<int>(p.pixel.u * 320.0F / static_cast<float>(frame_width_));
+  const int y = static_cast<int>(p.pixel.v * 240.0F / static_cast<float>(frame_height_));
+  memory_->lines.view().set(x, y, true);
+  if (!options_.lines || !told.ground(p.pixel, p.ground) || !told.robot_ray(p.pixel, p.ray)) return;
+  p.direction = direction;
+  p.length = length;
+  p.sigma = math::sqrt(told.ground_covariance(p.pixel, 2.0F, 0.0F).xx);
+  memory_->features.line_points.push_back(p);
+}
+
+void SyntheticView::add_lines(const Pose2& truth, Rng& rng) {
+  constexpr float spacing = 0.05F;
+  const auto half_turn = [](float a) { return math::atan(math::tan(a)); };
+  for (const FieldLine& line : field_.lines()) {
+    const float length = math::hypot(line.b.x - line.a.x, line.b.y - line.a.y);
+    const float direction = math::atan2(line.b.y - line.a.y, line.b.x - line.a.x) - truth.theta;
+    for (float s = 0.0F; s < length; s += spacing) {
+      const FieldPoint p{line.a.x + (line.b.x - line.a.x) * s / length, line.a.y + (line.b.y - line.a.y) * s / length};
+      add_line_point(told_projection_, to_ground(truth, p), half_turn(direction), spacing, rng);
+    }
+  }
+  const float r = field_.dimensions().circle_radius;
+  for (float a = 0.0F; a < math::two_pi; a += spacing / r) {
+    add_line_point(told_projection_, to_ground(truth, {r * math::cos(a), r * math::sin(a)}),
+                   half_turn(a + math::half_pi - truth.theta), spacing, rng);
+  }
+}
+
+void SyntheticView::add_junctions(const Pose2& truth, Rng& rng) {
+  for (const FieldLandmark& l : field_.landmarks()) {
+    const GroundPoint g = to_ground(truth, l.at);
+    Junction j;
+    if (math::hypot(g.x, g.y) > 2.5F || !see(g, options_.pixel_noise, rng, j.pixel)) continue;
+    if (!told_projection_.ground(j.pixel, j.ground)) continue;
+    j.type = l.type;
+    j.branches = l.branches;
+    for (int i = 0; i < l.branches; ++i) {
+      j.direction[static_cast<std::size_t>(i)] = wrap_angle(l.direction[i] - truth.theta);
+    }
+    j.covariance = told_projection_.ground_covariance(j.pixel, 2.0F, radians(0.5F));
+    j.confidence = 0.9F;
+    memory_->features.junctions.push_back(j);
+  }
+}
+
+const VisionResult& SyntheticView::look(const Pose2& truth, const CameraPose& camera, const SyntheticOptions& options,
+                                        Rng& rng) {
+  options_ = options;
+  CameraPose real = camera;
+  real.pitch += options.pitch_error;
+  real.roll += options.roll_error;
+  true_projection_ = GroundProjection(lens_, real);
+  told_projection_ = GroundProjection(lens_, camera);
+  *memory_ = {};
+  for (auto* mask : {&memory_->roi, &memory_->green}) {
+    for (int y = 0; y < 240; ++y) {
+      for (int x = 0; x < 320; ++x) mask->view().set(x, y, !options.covered);
+    }
+  }
+  if (!options.covered) add_lines(truth, rng);
+  if (!options.covered && options.junctions) add_junctions(truth, rng);
+  result_ = {};
+  result_.projection = told_projection_;
+  result_.frame_width = frame_width_;
+  result_.frame_height = frame_height_;
+  result_.work_width = 320;
+  result_.work_height = 240;
+  result_.roi = memory_->roi.view();
+  result_.green = memory_->green.view();
+  result_.line_mask = memory_->lines.view();
+  result_.features = &memory_->features;
+  return result_;
+}
+
+}  // namespace touchline::test
