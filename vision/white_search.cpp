@@ -12,6 +12,8 @@
 namespace touchline {
 namespace {
 
+constexpr std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
+
 const LineWidth& width_at(LineWidthView widths, int x, int y) {
   return widths.at(std::clamp(x / width_block_px, 0, widths.width - 1), std::clamp(y / width_block_px, 0, widths.height - 1));
 }
@@ -50,9 +52,24 @@ bool brighter_than_end(const std::uint8_t* at, std::ptrdiff_t outward, int lengt
   return line > green + green / 16 + noise / 8;
 }
 
+/// Pixels that a line's extent may have: a quarter more for the roughness of the table, two and a half for the blur of both ends.
+constexpr int with_tolerance(int sixteenths) { return (sixteenths * 5 / 4 + 40) / 16; }
+
+/// A strip that is `length` pixels along the scan and `other` across the scan through the same pixel has the slope
+/// s = length / other; its extent along the scan is the root of across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2.
+bool wider_than_slope_allows(int length, int other, std::uint16_t across, std::uint16_t other_across, std::uint16_t slanted) {
+  const std::int64_t a = std::int64_t{across} * across;
+  const std::int64_t b = std::int64_t{other_across} * other_across;
+  const std::int64_t mixed = std::max<std::int64_t>(std::int64_t{slanted} * slanted - a - b, 0);
+  const std::int64_t n = std::min(length, other);
+  const std::int64_t d = std::max(other, 1);
+  const std::int64_t extent2 = a + mixed * n / d + b * n * n / (d * d);        // 2^-8 square pixels
+  const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
+  return least * least > 25 * extent2;
+}
+
 GapVerdict judge(const Gap& gap, const LineWidth& width, std::uint16_t across, const CarpetModel& carpet) {
-  // A quarter more for the roughness of the table, three pixels for the blur of both ends.
-  if (gap.length > width.slanted * 5 / 64 + 3 || width.slanted == 0) return GapVerdict::too_wide;
+  if (gap.length > with_tolerance(width.slanted) || width.slanted == 0) return GapVerdict::too_wide;
   if (gap.length * 2 * 16 < across - 16) return GapVerdict::too_thin;
   if (gap.white * 2 < gap.length || gap.white == 0) return GapVerdict::not_white;
   const std::uint8_t* last = gap.luma + gap.step * (gap.length - 1);
@@ -96,6 +113,23 @@ struct SpanSearch {
   SpanCounts counts;
 };
 
+/// Pixels without green along the row (column) through a pixel, at most `limit` to each side.
+int row_extent(ConstBitView green, int x, int y, int limit) {
+  int left = x;
+  while (left > 0 && x - left < limit && !green.get(left - 1, y)) --left;
+  int right = x;
+  while (right + 1 < green.width && right - x < limit && !green.get(right + 1, y)) ++right;
+  return right - left + 1;
+}
+int column_extent(ConstBitView green, int x, int y, int limit) {
+  int top = y;
+  while (top > 0 && y - top < limit && !green.get(x, top - 1)) --top;
+  int bottom = y;
+  while (bottom + 1 < green.height && bottom - y < limit && !green.get(x, bottom + 1)) ++bottom;
+  return bottom - top + 1;
+}
+constexpr int slope_reach = 4;  // a slope flatter than 1 : 8 is as good as level
+
 void search_row(SpanSearch& search, int y) {
   const int width = search.green.width;
   const BitWord* row = search.green.row(y);
@@ -107,7 +141,14 @@ void search_row(SpanSearch& search, int y) {
     if (end >= width) return;
     const LineWidth& expected = width_at(search.widths, (first + end) / 2, y);
     const Gap gap{search.image.y.row(y) + first, 1, end - first, first, width - end, count_row(search.white, y, first, end)};
-    if (count_verdict(judge(gap, expected, expected.across_row, search.carpet), search.counts)) {
+    GapVerdict verdict = judge(gap, expected, expected.across_row, search.carpet);
+    if (verdict == GapVerdict::line) {
+      const int other = column_extent(search.green, (first + end) / 2, y, gap.length * slope_reach);
+      if (wider_than_slope_allows(gap.length, other, expected.across_row, expected.across_column, expected.slanted)) {
+        verdict = GapVerdict::too_wide;
+      }
+    }
+    if (count_verdict(verdict, search.counts)) {
       set_span(search.lines, y, first, end - 1, true);
     }
     end_of_green = end;
@@ -117,14 +158,21 @@ void search_row(SpanSearch& search, int y) {
 
 void close_gap(SpanSearch& search, int x, int first, int end) {
   const LineWidth& expected = width_at(search.widths, x, (first + end) / 2);
-  if ((end - first) > expected.slanted * 5 / 64 + 3) {  // before the white pixels are counted one by one
+  if (end - first > with_tolerance(expected.slanted)) {  // before the white pixels are counted one by one
     ++search.counts.too_wide;
     return;
   }
   int white = 0;
   for (int y = first; y < end; ++y) white += search.white.get(x, y) ? 1 : 0;
   const Gap gap{search.image.y.row(first) + x, search.image.y.stride, end - first, first, search.green.height - end, white};
-  if (!count_verdict(judge(gap, expected, expected.across_column, search.carpet), search.counts)) return;
+  GapVerdict verdict = judge(gap, expected, expected.across_column, search.carpet);
+  if (verdict == GapVerdict::line) {
+    const int other = row_extent(search.green, x, (first + end) / 2, gap.length * slope_reach);
+    if (wider_than_slope_allows(gap.length, other, expected.across_column, expected.across_row, expected.slanted)) {
+      verdict = GapVerdict::too_wide;
+    }
+  }
+  if (!count_verdict(verdict, search.counts)) return;
   for (int y = first; y < end; ++y) search.lines.set(x, y, true);
 }
 
@@ -177,7 +225,10 @@ struct RidgeSearch {
   std::int32_t noise_margin;
 
   [[nodiscard]] std::int32_t greenness(int x, int y) const {
-    return (image.cb.at(x / 2, y / 2) - 128) * carpet.axis_cb + (image.cr.at(x / 2, y / 2) - 128) * carpet.axis_cr;
+    return ((image.cb.at(x / 2, y / 2) - 128) * carpet.axis_cb + (image.cr.at(x / 2, y / 2) - 128) * carpet.axis_cr) / 16;
+  }
+  [[nodiscard]] std::int32_t chroma(int x, int y) const {
+    return magnitude(image.cb.at(x / 2, y / 2) - 128) + magnitude(image.cr.at(x / 2, y / 2) - 128);
   }
 
   /// `p` points into the luma; `along` steps through the scan, `beside` to the neighbours that smooth it.
@@ -194,13 +245,13 @@ struct RidgeSearch {
     const std::int32_t after = smooth(p + along, beside);
     if (here <= before + before / 16 + noise_margin || here <= after + after / 16 + noise_margin) return false;
     if (!green.get(x - dx, y - dy) || !green.get(x + dx, y + dy)) return false;
-    const std::int32_t own = greenness(x, y) / 16;
-    return less_green(own, here, greenness(x - dx, y - dy) / 16, before) &&
-           less_green(own, here, greenness(x + dx, y + dy) / 16, after);
+    return whiter(x, y, here, x - dx, y - dy, before) && whiter(x, y, here, x + dx, y + dy, after);
   }
-  /// Chroma over luma, compared without a division: at least an eighth less than the side.
-  [[nodiscard]] static bool less_green(std::int32_t own, std::int32_t own_luma, std::int32_t side, std::int32_t side_luma) {
-    return own * side_luma * 8 < side * own_luma * 7;
+  /// Chroma over luma, compared without a division: at least an eighth less green than the side, and not more of any colour: a
+  /// yellow post is brighter and less green than the carpet, but no line.
+  [[nodiscard]] bool whiter(int x, int y, std::int32_t luma, int side_x, int side_y, std::int32_t side_luma) const {
+    return greenness(x, y) * side_luma * 8 < greenness(side_x, side_y) * luma * 7 &&
+           chroma(x, y) * side_luma < chroma(side_x, side_y) * luma;
   }
 };
 

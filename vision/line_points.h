@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// From skeleton pixels to points on the middle of a line, better than a working pixel, with their place on the ground. Both edges
+// are found on the luma's profile across the line, and their distance on the ground is compared with the line's width: the
+// strongest test there is of what is a line.
+#pragma once
+
+#include "vision/features.h"
+#include "vision/image/bit_image.h"
+#include "vision/image/image_view.h"
+#include "vision/lens/camera_pose.h"
+
+namespace touchline {
+
+struct LinePointInput {
+  ImageView<const std::uint8_t> luma;
+  ConstBitView skeleton;
+  ConstBitView line_mask;
+  const GroundProjection& projection;
+  int frame_width = 0;
+  int frame_height = 0;
+  float line_width_m = 0.05F;
+  float max_range_m = 6.0F;
+};
+
+/// Skeleton pixels that made no point, by reason.
+struct LinePointCounts {
+  int considered = 0;
+  int no_direction = 0;  // at a fork or an end: no stretch of skeleton to take a direction from
+  int no_edge = 0;       // the profile does not fall to both sides, or the picture ends first
+  int no_ground = 0;
+  int wrong_width = 0;
+  int dropped = 0;       // no room
+};
+
+/// Fills `points`, evenly spread over the skeleton's pixels. `scratch` has the skeleton's size.
+LinePointCounts find_line_points(const LinePointInput& input, BitView scratch, StaticVector<LinePoint, max_line_points>& points);
+
+}  // namespace touchline
