@@ -2,9 +2,15 @@
 // One call from a camera frame to the features on the ground: the paper's section IV in order.
 #pragma once
 
+#include <array>
+
 #include "platform/core/status.h"
+#include "vision/green.h"
 #include "vision/image/frame.h"
+#include "vision/image/frame_fifo.h"
+#include "vision/image/subsample.h"
 #include "vision/lens/camera_pose.h"
+#include "vision/pipeline_memory.h"
 #include "vision/stage.h"
 #include "vision/vision_config.h"
 #include "vision/vision_result.h"
@@ -18,13 +24,11 @@ struct FrameInput {
   Pose2 odometry;     // robot's step since the frame before, robot's frame; only used to see that it moved
 };
 
-/// Views of all memory that the chain works in; made by PipelineStorage<W, H, Depth>. (Members: see pipeline.cpp's
-/// needs.)
-struct PipelineMemory;
-
 class Pipeline {
  public:
-  explicit Pipeline(PipelineMemory& memory);
+  /// `memory` outlives the pipeline; it is that of a PipelineStorage<W, H, Depth>.
+  explicit Pipeline(const PipelineMemory& memory) : memory_(memory), subsampler_(memory.subsample) {}
+
   /// Checks config against the storage; on failure the old configuration stays and `what` names the key, when not null.
   Status configure(const VisionConfig& config, const Lens& lens, const char** what = nullptr);
   /// Runs the chain on one frame. wrong_size, invalid_argument (NaN, height <= 0), not_ready (not configured):
@@ -32,9 +36,35 @@ class Pipeline {
   Status process(const FrameInput& input, VisionResult& result, StageObserver* observer = nullptr);
   /// After a fall or a reset: empties the FIFO.
   void reset();
+  [[nodiscard]] const VisionConfig& config() const { return config_; }
 
  private:
-  PipelineMemory& memory_;
+  /// Where the camera was when a frame of the FIFO was taken.
+  struct Held {
+    CameraPose camera;
+    Pose2 odometry;  // robot's step since the frame before this one
+  };
+
+  Status average(const FrameInput& input, VisionResult& result);
+  void remember(const FrameInput& input);
+  [[nodiscard]] bool still_since(int age) const;
+  void find_green_stage(VisionResult& result);
+  void find_roi(VisionResult& result);
+  void find_candidates(VisionResult& result);
+  void make_line_mask(VisionResult& result);
+  void make_skeleton(VisionResult& result);
+  void make_line_points(VisionResult& result);
+  [[nodiscard]] int scaled(int px) const;
+
+  PipelineMemory memory_;
+  VisionConfig config_;
+  Lens lens_;
+  bool configured_ = false;
+  PipelineViews views_;
+  Subsampler subsampler_;
+  FrameFifo fifo_{{}, {}};
+  std::array<Held, max_fifo_depth> held_{};  // the newest first
+  CarpetModel carpet_;
 };
 
 }  // namespace touchline

@@ -19,9 +19,11 @@ using MaskPolygon = StaticVector<PixelPoint, max_mask_polygon_points>;
 struct VisionConfig {
   int frame_width = 752;  // camera pixels; the paper's camera
   int frame_height = 480;
+  int work_width = 320;    // working pixels; up to the storage's size
+  int work_height = 240;
   int fifo_depth = 4;  // frames in the mean, 1..8 (paper section IV-A; the storage may allow fewer)
 
-  HsvRange green{35, 90, 50, 255, 20, 255};
+  HsvRange green{28, 95, 40, 255, 12, 255};  // a wide gate: each frame finds its own range inside
   HsvRange yellow_post{18, 34, 110, 255, 60, 255};
   int green_erode_px = 3;   // kernel side, odd; removes specks of green outside the field
   int green_dilate_px = 5;  // kernel side, odd; closes the holes that lines of usual width leave

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/pipeline.h"
+
+#include <algorithm>
+
+#include "platform/core/elementary.h"
+#include "vision/digestion.h"
+#include "vision/ground_mask.h"
+#include "vision/image/bit_ops.h"
+#include "vision/image/morphology.h"
+#include "vision/line_points.h"
+#include "vision/node_graph.h"
+#include "vision/short_pieces.h"
+#include "vision/white_search.h"
+
+namespace touchline {
+namespace {
+
+/// Tells the observer, if there is one, when a stage begins and ends.
+class StageScope {
+ public:
+  StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
+    if (observer_ != nullptr) observer_->begin(stage_);
+  }
+  ~StageScope() {
+    if (observer_ != nullptr) observer_->end(stage_);
+  }
+  StageScope(const StageScope&) = delete;
+  StageScope& operator=(const StageScope&) = delete;
+
+ private:
+  StageObserver* observer_;
+  Stage stage_;
+};
+
+bool is_finite(float x) { return x - x == 0.0F; }
+bool is_valid(const CameraPose& pose) {
+  return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.yaw) && is_finite(pose.pitch) && is_finite(pose.roll) &&
+         is_finite(pose.height) && pose.height > 0.0F;
+}
+bool is_valid(const Pose2& pose) { return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.theta); }
+
+Status refuse(const char** what, const char* key) {
+  if (what != nullptr) *what = key;
+  return Status::invalid_argument;
+}
+
+bool odd_kernel(int side) { return side >= 1 && side <= 31 && side % 2 == 1; }
+
+Status check(const VisionConfig& c, const char** what) {
+  if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
+  if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
+  if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");
+  if (!odd_kernel(c.line_dilate_px)) return refuse(what, "line_dilate_px");
+  if (!odd_kernel(c.line_erode_px)) return refuse(what, "line_erode_px");
+  if (!(c.line_width_m > 0.005F && c.line_width_m < 1.0F)) return refuse(what, "line_width_m");
+  if (!(c.max_range_m > 0.1F && c.max_range_m < 100.0F)) return refuse(what, "max_range_m");
+  if (c.green.hue_low > c.green.hue_high) return refuse(what, "green");
+  if (c.digestion_radius_px < 1 || c.digestion_radius_px > 64) return refuse(what, "digestion_radius_px");
+  return Status::ok;
+}
+
+constexpr int reference_width = 320;  // lengths of the configuration are in working pixels of this width
+
+}  // namespace
+
+Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const char** what) {
+  if (const Status status = check(config, what); status != Status::ok) return status;
+  if (static_cast<std::size_t>(config.fifo_depth) > memory_.depth) return refuse(what, "fifo_depth");
+  PipelineViews views;
+  if (!make_views(memory_, config.work_width, config.work_height, views)) return refuse(what, "work_width");
+  const Status status =
+      subsampler_.configure(config.frame_width, config.frame_height, config.work_width, config.work_height);
+  if (status != Status::ok) {
+    (void)refuse(what, "frame_width");
+    return status;
+  }
+  config_ = config;
+  lens_ = lens;
+  views_ = views;
+  fifo_ = FrameFifo({views_.slots.data(), static_cast<std::size_t>(config.fifo_depth)}, views_.mean);
+  make_ray_grid(lens, config.frame_width, config.frame_height, config.work_width, config.work_height, views_.rays);
+  make_seen_mask(lens, config.frame_width, config.frame_height, config.body_mask.span(), views_.mask(MaskId::seen));
+  configured_ = true;
+  return Status::ok;
+}
+
+void Pipeline::reset() { fifo_.reset(); }
+
+Status Pipeline::process(const FrameInput& input, VisionResult& result, StageObserver* observer) {
+  if (!configured_) return Status::not_ready;
+  if (input.image.width != config_.frame_width || input.image.height != config_.frame_height) return Status::wrong_size;
+  if (!is_valid(input.camera) || !is_valid(input.odometry) || !(input.time_s - input.time_s == 0.0)) {
+    return Status::invalid_argument;
+  }
+  VisionResult next;
+  next.time_s = input.time_s;
+  next.projection = GroundProjection(lens_, input.camera);
+  next.work_width = views_.width;
+  next.work_height = views_.height;
+  {
+    const StageScope scope(observer, Stage::average);
+    if (const Status status = average(input, next); status != Status::ok) return status;
+  }
+  const auto run = [&](Stage stage, void (Pipeline::*step)(VisionResult&)) {
+    const StageScope scope(observer, stage);
+    (this->*step)(next);
+  };
+  run(Stage::green, &Pipeline::find_green_stage);
+  run(Stage::roi, &Pipeline::find_roi);
+  run(Stage::candidates, &Pipeline::find_candidates);
+  run(Stage::line_mask, &Pipeline::make_line_mask);
+  run(Stage::thinning, &Pipeline::make_skeleton);
+  run(Stage::line_points, &Pipeline::make_line_points);
+  next.features = memory_.features;
+  result = next;
+  return Status::ok;
+}
+
+Status Pipeline::average(const FrameInput& input, VisionResult& result) {
+  if (const Status status = subsampler_.run(input.image, fifo_.next_slot()); status != Status::ok) return status;
+  fifo_.push();
+  remember(input);
+  std::array<bool, max_fifo_depth> still{};
+  for (int age = 0; age < fifo_.size(); ++age) still[static_cast<std::size_t>(age)] = still_since(age);
+  result.mean = fifo_.mean_of_still(still);
+  result.counts.frames_in_mean = fifo_.frames_in_mean();
+  result.counts.frames_left_out = fifo_.size() - fifo_.frames_in_mean();
+  return Status::ok;
+}
+
+void Pipeline::remember(const FrameInput& input) {
+  std::copy_backward(held_.begin(), held_.end() - 1, held_.end());
+  held_[0] = {input.camera, input.odometry};
+}
+
+/// Whether the camera has moved by less than a working pixel since the frame of that age: the turn as an angle, the step as it is
+/// seen at the nearest ground, one camera height away.
+bool Pipeline::still_since(int age) const {
+  Pose2 step;
+  for (int i = age - 1; i >= 0; --i) step = compose(step, held_[static_cast<std::size_t>(i)].odometry);
+  const CameraPose& now = held_[0].camera;
+  const CameraPose& then = held_[static_cast<std::size_t>(age)].camera;
+  const float turn = math::abs(wrap_angle(now.pitch - then.pitch)) + math::abs(wrap_angle(now.roll - then.roll)) +
+                     math::abs(wrap_angle(now.yaw - then.yaw + step.theta));
+  const float travel = math::hypot(now.x - then.x + step.x, now.y - then.y + step.y) + math::abs(now.height - then.height);
+  const float pixels_a_frame_pixel = math::max(static_cast<float>(views_.width) / static_cast<float>(config_.frame_width),
+                                               static_cast<float>(views_.height) / static_cast<float>(config_.frame_height));
+  return (turn + travel / now.height) * lens_.parameters().focal_px * pixels_a_frame_pixel < 1.0F;
+}
+
+void Pipeline::find_green_stage(VisionResult& result) {
+  const CameraPose& pose = result.projection.pose();
+  const BitView& ground = views_.mask(MaskId::ground);
+  make_ground_mask(views_.rays, pose, config_.max_range_m, views_.mask(MaskId::seen), ground);
+  make_line_width_table(views_.rays, pose, config_.line_width_m, views_.line_widths);
+  result.line_widths = views_.line_widths;
+  carpet_ = measure_carpet(result.mean, ground, config_.green);
+  find_green(result.mean, ground, carpet_, views_.mask(MaskId::green));
+  find_white(result.mean, ground, carpet_, views_.mask(MaskId::white));
+  // What is white between green belongs to the field, or a wide line would cut it in two.
+  const BitView& candidates = views_.mask(MaskId::candidates);
+  clear(candidates);
+  find_white_spans(result.mean, views_.mask(MaskId::green), views_.mask(MaskId::white), result.line_widths, carpet_, candidates);
+  const BitView& clean = views_.mask(MaskId::clean_green);
+  copy(views_.mask(MaskId::green), clean);
+  or_with(clean, candidates);
+  erode(clean, scaled(config_.green_erode_px));
+  dilate(clean, scaled(config_.green_dilate_px));
+  result.green = clean;
+  result.counts.green_pixels = count(clean);
+}
+
+void Pipeline::find_roi(VisionResult& result) {
+  const BitView& field = views_.mask(MaskId::field);
+  const BitView& roi = views_.mask(MaskId::roi);
+  copy(views_.mask(MaskId::clean_green), field);
+  clear(roi);
+  for (int y = 0; y < roi.height; ++y) {
+    int first = roi.width;
+    int last = -1;
+    for (int i = 0; i < words_for(roi.width); ++i) {
+      const BitWord word = field.row(y)[i];
+      if (word == 0) continue;
+      first = std::min(first, i * bits_per_word + std::countr_zero(word));
+      last = i * bits_per_word + bits_per_word - 1 - std::countl_zero(word);
+    }
+    if (last >= first) set_span(roi, y, first, last, true);
+  }
+  and_with(roi, views_.mask(MaskId::ground));
+  result.field = field;
+  result.roi = roi;
+  result.counts.roi_pixels = count(roi);
+}
+
+void Pipeline::find_candidates(VisionResult& result) {
+  const BitView& candidates = views_.mask(MaskId::candidates);
+  const BitView& roi = views_.mask(MaskId::roi);
+  and_with(candidates, roi);
+  find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates);
+  result.candidates = candidates;
+  result.counts.candidate_pixels = count(candidates);
+}
+
+void Pipeline::make_line_mask(VisionResult& result) {
+  const BitView& lines = views_.mask(MaskId::line_mask);
+  const BitView& white = views_.mask(MaskId::white);
+  copy(views_.mask(MaskId::candidates), lines);
+  and_with(white, views_.mask(MaskId::roi));
+  grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
+  dilate(lines, scaled(config_.line_dilate_px));
+  erode(lines, scaled(config_.line_erode_px));
+  and_with(lines, views_.mask(MaskId::roi));
+  result.line_mask = lines;
+  result.counts.line_pixels = count(lines);
+}
+
+void Pipeline::make_skeleton(VisionResult& result) {
+  const BitView& skeleton = views_.mask(MaskId::skeleton);
+  copy(views_.mask(MaskId::line_mask), skeleton);
+  thin(skeleton, memory_.thinning);
+  remove_short_pieces(skeleton, result.line_widths, scaled(5), views_.mask(MaskId::scratch), memory_.stack);
+  result.skeleton = skeleton;
+  result.counts.skeleton_pixels = count(skeleton);
+}
+
+void Pipeline::make_line_points(VisionResult& result) {
+  const LinePointInput input{result.mean.y,        result.skeleton,      result.line_mask,     result.projection,
+                             config_.frame_width,  config_.frame_height, config_.line_width_m, config_.max_range_m};
+  const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
+  result.counts.dropped_line_points = counts.dropped;
+}
+
+/// A kernel or radius of the configuration at the working width, odd.
+int Pipeline::scaled(int px) const {
+  const int length = (px * views_.width + reference_width / 2) / reference_width;
+  return std::max(length | 1, 1);
+}
+
+}  // namespace touchline

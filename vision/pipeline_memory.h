@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// All memory that the chain works in, as spans at their full capacity, and the views of it at one working size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "vision/features.h"
+#include "vision/graph.h"
+#include "vision/graph_storage.h"
+#include "vision/image/bit_image.h"
+#include "vision/image/frame_fifo.h"
+#include "vision/image/subsample.h"
+#include "vision/image/thinning.h"
+#include "vision/line_width_table.h"
+#include "vision/ray_grid.h"
+
+namespace touchline {
+
+/// The masks of the chain, each of one bit a working pixel.
+enum class MaskId : std::uint8_t {
+  seen,        // inside the image circle and not the robot itself; made once
+  ground,      // sees the carpet
+  green,       // the carpet's colour, before erosion
+  clean_green, // after erosion and dilation
+  white,       // no colour
+  field,       // the largest blob
+  roi,         // its hull
+  candidates,  // white search united with Canny
+  line_mask,
+  skeleton,
+  scratch,
+  count,
+};
+inline constexpr std::size_t mask_count = static_cast<std::size_t>(MaskId::count);
+
+/// Samples of one working image at full capacity.
+struct Yuv420Samples {
+  std::span<std::uint8_t> y, cb, cr;
+};
+
+struct PipelineMemory {
+  int max_width = 0;
+  int max_height = 0;
+  std::size_t depth = 0;  // slots that are there
+  std::array<Yuv420Samples, max_fifo_depth> slots;
+  Yuv420Samples mean;     // empty when depth is 1
+  SubsampleMemory subsample;
+  std::array<std::span<BitWord>, mask_count> masks;
+  std::span<Vec3> rays;
+  std::span<LineWidth> line_widths;
+  std::span<ThinningScratch> thinning;
+  std::span<GridPoint> stack;
+  GraphMemory graph;
+  Features* features = nullptr;
+};
+
+/// The same memory at the working size that was configured.
+struct PipelineViews {
+  int width = 0;
+  int height = 0;
+  std::array<Yuv420View, max_fifo_depth> slots;
+  Yuv420View mean;
+  std::array<BitView, mask_count> masks;
+  RayGridView rays;
+  ImageView<LineWidth> line_widths;
+
+  [[nodiscard]] const BitView& mask(MaskId id) const { return masks[static_cast<std::size_t>(id)]; }
+};
+
+/// False when the working size is larger than the memory. Width and height are even.
+bool make_views(const PipelineMemory& memory, int width, int height, PipelineViews& views);
+
+}  // namespace touchline

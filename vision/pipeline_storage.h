@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one object that owns all memory of the vision pipeline. Its size is the memory budget.
+#pragma once
+
+#include <array>
+
+#include "vision/image/frame.h"
+#include "vision/pipeline_memory.h"
+
+namespace touchline {
+
+/// For working images of up to W x H, frames of up to FrameWidth columns, and a FIFO of Depth frames.
+template <int W = 320, int H = 240, int Depth = 4, int FrameWidth = max_frame_width>
+class PipelineStorage {
+  static_assert(Depth >= 1 && Depth <= max_fifo_depth);
+  static constexpr std::size_t mean_images = Depth > 1 ? 1 : 0;  // the mean of one frame is that frame
+
+ public:
+  [[nodiscard]] PipelineMemory memory() {
+    PipelineMemory m;
+    m.max_width = W;
+    m.max_height = H;
+    m.depth = static_cast<std::size_t>(Depth);
+    for (std::size_t i = 0; i < m.depth; ++i) m.slots[i] = samples(images_[i]);
+    if constexpr (Depth > 1) m.mean = samples(images_[m.depth]);
+    m.subsample = subsample_.memory();
+    for (std::size_t i = 0; i < mask_count; ++i) m.masks[i] = masks_[i].words;
+    m.rays = rays_;
+    m.line_widths = line_widths_;
+    m.thinning = thinning_;
+    m.stack = stack_;
+    m.graph = graph_.memory();
+    m.features = &features_;
+    return m;
+  }
+
+ private:
+  using Slot = Yuv420Image<W, H>;
+  static Yuv420Samples samples(Slot& slot) { return {slot.y.samples, slot.cb.samples, slot.cr.samples}; }
+
+  std::array<Slot, static_cast<std::size_t>(Depth) + mean_images> images_{};
+  SubsampleStorage<FrameWidth, W> subsample_{};
+  std::array<BitImage<W, H>, mask_count> masks_{};
+  std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
+  std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)> line_widths_{};
+  std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(H))> thinning_{};
+  // Pixels that wait while a piece of skeleton is followed, depth first: three a fork at the most.
+  std::array<GridPoint, 512> stack_{};
+  GraphStorage<W, H> graph_{};
+  Features features_{};
+};
+
+// The budget at 320x240.
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 960 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 480 * 1024);
+
+}  // namespace touchline
