@@ -145,25 +145,39 @@ void WalkScenario::events(float dt) {
   if (due(options_.lift_at_s)) world_.lift(3.0F, mirrored(world_.state().pose));
 }
 
-const SimFrame& WalkScenario::next(bool draw) {
-  const float dt = 1.0F / options_.frames_per_second;
-  frame_.index += 1;
-  frame_.odometry = {};
+void WalkScenario::move(float dt, double time_s) {
   if (frame_.index > 0) {
     events(dt);
     world_.step(dt);
-    frame_.odometry = gait_.step(world_.state(), dt);
+    const Pose2 believed = gait_.step(world_.state(), dt);
+    frame_.odometry = compose(frame_.odometry, believed);
+    odometry_ = compose(odometry_, believed);
+    frame_.kidnapped = frame_.kidnapped || world_.state().kidnapped;
+  }
+  imu_.step(world_.state(), dt);
+  readings_.push_back({time_s, odometry_, imu_.yaw(), imu_.camera(), world_.state().activity});
+}
+
+const SimFrame& WalkScenario::next(bool draw) {
+  frame_.index += 1;
+  frame_.odometry = {};
+  frame_.kidnapped = false;
+  readings_.clear();
+  const int steps = frame_.index > 0 ? options_.readings_per_frame : 1;
+  const float dt = 1.0F / (options_.frames_per_second * static_cast<float>(options_.readings_per_frame));
+  // Times are multiples of the rate, not sums of rounded steps.
+  const auto rate = static_cast<double>(options_.frames_per_second);
+  frame_.time_s = frame_.index / rate;
+  for (int i = 0; i < steps; ++i) {
+    move(dt, frame_.time_s - static_cast<double>(steps - 1 - i) / (rate * options_.readings_per_frame));
   }
   const WorldState& now = world_.state();
-  imu_.step(now, dt);
-  frame_.time_s = now.time_s;
   frame_.mount = imu_.camera();
   frame_.has_yaw = options_.yaw;
   frame_.yaw = options_.yaw ? imu_.yaw() - options_.imu.goal_yaw : 0.0F;
   frame_.moved_by_hand = now.activity == Activity::fallen || now.activity == Activity::lifted;
   frame_.truth = now.pose;
   frame_.true_camera = now.camera;
-  frame_.kidnapped = now.kidnapped;
   if (draw) {
     scene_.set_moving(world_.robots(), now.phase, world_.ball());
     scene_.set_own_pose(now.pose, now.phase);

@@ -23,6 +23,15 @@ struct SimCameraModel {
 /// the left and right edge. "fisheye-140-kb": the same field of view, Kannala-Brandt. Nothing for another name.
 std::optional<SimCameraModel> camera_model(std::string_view name);
 
+/// What the sensors say between frames, at their own rate.
+struct SimReading {
+  double time_s = 0.0;
+  Pose2 odometry;      // summed since the start
+  float yaw = 0.0F;    // as the IMU reads it: goal yaw included, continuous, radians
+  CameraPose mount;    // as measured
+  Activity activity = Activity::walking;
+};
+
 /// One frame with all a robot would be told, and the truth.
 struct SimFrame {
   int index = 0;
@@ -83,6 +92,7 @@ struct WalkScenarioOptions {
   std::uint64_t seed = 1;
   float frames_per_second = 12.0F;
   bool yaw = true;
+  int readings_per_frame = 4;      // of gait and IMU
   double kidnap_at_s = -1.0;       // unannounced; < 0: none
   double fall_at_s = -1.0;         // lies 3 s, then gets up; < 0: none
   double lift_at_s = -1.0;         // carried 3 s and put down elsewhere, with the flag; < 0: none
@@ -96,6 +106,8 @@ class WalkScenario {
   [[nodiscard]] bool ready() const { return ready_; }
   /// Goes on to the next frame; the first is at time 0. `draw` false skips the picture, not the motion.
   const SimFrame& next(bool draw = true);
+  /// Readings since the frame before, the last one at the time of the frame.
+  [[nodiscard]] std::span<const SimReading> readings() const { return readings_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const Lens& lens() const { return lens_; }
   [[nodiscard]] const SimWorld& world() const { return world_; }
@@ -105,6 +117,7 @@ class WalkScenario {
 
  private:
   void events(float dt);
+  void move(float dt, double time_s);
 
   WalkScenarioOptions options_;
   Lens lens_;
@@ -115,6 +128,8 @@ class WalkScenario {
   SimImu imu_;
   SimRenderer renderer_;
   std::vector<std::uint8_t> pixels_;
+  std::vector<SimReading> readings_;
+  Pose2 odometry_;  // summed
   SimFrame frame_;
 };
 
