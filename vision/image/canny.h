@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Canny's edges inside a region (Canny, "A Computational Approach to Edge Detection", PAMI 8(6), 1986; paper section
+// IV-C), in integers, with a few rolling rows in place of gradient images.
+//
+// Gaussian: the binomial 3x3 (1 2 1), sigma 0.7 pixel: lines far away are one to three working pixels wide, and a wider
+// one would melt both of their edges; noise was already lowered by the mean over frames and the area weighting.
+// Gradient: Sobel 3x3. Magnitude: max + 3/8 min of |gx|, |gy|, within 7 % of the Euclidean one. At the image's border
+// the outermost pixels repeat. Non-maximum suppression: along the gradient itself, the magnitude interpolated between
+// the two neighbours on either side, by cross-multiplication. Hysteresis: grow_inside(), which needs no stack.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "vision/image/bit_image.h"
+#include "vision/image/grow.h"
+#include "vision/image/image_view.h"
+
+namespace touchline {
+
+/// Gradient magnitudes in the unit of an unscaled Sobel of gray levels: a ramp of one gray level a pixel has 8, a sharp
+/// step of s gray levels has 3 s. 0 < low <= high <= 1400.
+struct CannyThresholds {
+  int low = 40;
+  int high = 90;
+};
+
+/// Rolling rows; nothing has to stay between calls.
+struct CannyMemory {
+  std::span<std::uint16_t> rows;
+};
+inline constexpr int canny_rows = 13;
+constexpr int canny_row_stride(int width) { return width + 2; }
+template <int W>
+struct CannyStorage {
+  std::array<std::uint16_t, static_cast<std::size_t>(canny_rows* canny_row_stride(W))> rows{};
+  [[nodiscard]] CannyMemory memory() { return {rows}; }
+};
+
+/// edges = edge pixels of `gray` that lie in `roi` and are connected, inside it, to a strong one. `weak` is scratch and
+/// holds all local maxima above the low threshold afterwards. All of one size. The result tells whether hysteresis
+/// ended within its bound.
+GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
+                      CannyMemory memory, BitView weak, BitView edges);
+
+}  // namespace touchline
