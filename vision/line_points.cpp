@@ -11,8 +11,7 @@
 namespace touchline {
 namespace {
 
-constexpr int walk_px = 6;              // pixels of skeleton to each side that give the direction
-constexpr int least_walk_px = 4;        // of both sides together
+constexpr int direction_radius_px = 5;  // of the skeleton's pixels that give the direction, at a working width of 320
 constexpr int max_half_width_px = 40;   // a line this wide fills the picture
 constexpr float side_px = 2.0F;         // how far beyond the mask's edge the carpet is sampled
 
@@ -20,53 +19,45 @@ struct Vec2 {
   float u = 0.0F, v = 0.0F;
 };
 
-/// Walks along the skeleton from `at`, away from `previous`, while there is exactly one way on; returns where it ends.
-GridPoint walk(ConstBitView skeleton, GridPoint at, GridPoint previous, int steps, int& taken) {
-  for (taken = 0; taken < steps; ++taken) {
-    GridPoint next;
-    int ways = 0;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int x = at.x + dx;
-        const int y = at.y + dy;
-        if ((dx == 0 && dy == 0) || !skeleton.get(x, y)) continue;
-        if (std::max(x - previous.x, previous.x - x) <= 1 && std::max(y - previous.y, previous.y - y) <= 1) continue;
-        next = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-        ++ways;
-      }
+/// Second moments of the skeleton's pixels around one of them.
+struct Moments {
+  std::int32_t n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
+  Moments m;
+  for (int dy = std::max(-radius, -at.y); dy <= std::min(radius, skeleton.height - 1 - at.y); ++dy) {
+    for (int dx = -radius; dx <= radius; ++dx) {
+      if (!skeleton.get(at.x + dx, at.y + dy)) continue;
+      ++m.n;
+      m.x += dx;
+      m.y += dy;
+      m.xx += dx * dx;
+      m.xy += dx * dy;
+      m.yy += dy * dy;
     }
-    if (ways != 1) break;
-    previous = at;
-    at = next;
   }
-  return at;
+  return m;
 }
 
-/// Unit direction of the skeleton at a pixel, in working pixels; false at forks and stubs.
-bool direction_at(ConstBitView skeleton, GridPoint at, Vec2& direction) {
-  GridPoint neighbour[2];
-  int count = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      if ((dx == 0 && dy == 0) || !skeleton.get(at.x + dx, at.y + dy)) continue;
-      if (count == 2) return false;
-      neighbour[count++] = {static_cast<std::int16_t>(at.x + dx), static_cast<std::int16_t>(at.y + dy)};
-    }
-  }
-  if (count == 0) return false;
-  int taken_a = 0;
-  int taken_b = 0;
-  const GridPoint a = walk(skeleton, neighbour[0], at, walk_px, taken_a);
-  GridPoint b = at;
-  if (count == 2) {
-    b = walk(skeleton, neighbour[1], at, walk_px, taken_b);
-    ++taken_b;
-  }
-  if (taken_a + 1 + taken_b < least_walk_px) return false;
-  const Vec2 d{static_cast<float>(b.x - a.x), static_cast<float>(b.y - a.y)};
-  const float length = math::hypot(d.u, d.v);
-  if (length < 3.0F) return false;
-  direction = {d.u / length, d.v / length};
+/// Unit direction of the skeleton at a pixel, in working pixels: the main axis of the pixels around it. False where they are few or
+/// no line: at ends, forks and bends, where the middle of the line means nothing.
+bool direction_at(ConstBitView skeleton, GridPoint at, int radius, Vec2& direction) {
+  const Moments m = moments_around(skeleton, at, radius);
+  if (m.n < radius) return false;
+  const float n = static_cast<float>(m.n);
+  const float xx = static_cast<float>(m.n * m.xx - m.x * m.x) / (n * n);
+  const float xy = static_cast<float>(m.n * m.xy - m.x * m.y) / (n * n);
+  const float yy = static_cast<float>(m.n * m.yy - m.y * m.y) / (n * n);
+  // Eigenvalues of the covariance: mean +- spread.
+  const float mean = 0.5F * (xx + yy);
+  const float half_difference = 0.5F * (xx - yy);
+  const float spread = math::hypot(half_difference, xy);
+  constexpr float most_across = 0.08F;  // of the variance along; a staircase has 0.25 px^2, three pixels to the next line are 2.2
+  if (mean - spread > most_across * (mean + spread)) return false;
+  const Vec2 axis = half_difference >= 0.0F ? Vec2{half_difference + spread, xy} : Vec2{xy, spread - half_difference};
+  const float length = math::hypot(axis.u, axis.v);
+  if (!(length > 0.0F)) return false;
+  direction = {axis.u / length, axis.v / length};
   return true;
 }
 
@@ -133,12 +124,13 @@ class PointFinder {
   explicit PointFinder(const LinePointInput& input)
       : input_(input),
         scale_u_(static_cast<float>(input.frame_width) / static_cast<float>(input.luma.width)),
-        scale_v_(static_cast<float>(input.frame_height) / static_cast<float>(input.luma.height)) {}
+        scale_v_(static_cast<float>(input.frame_height) / static_cast<float>(input.luma.height)),
+        radius_(std::max(direction_radius_px * input.luma.width / 320, 3)) {}
 
   /// One skeleton pixel; counts the reason when there is no point.
   bool find(GridPoint pixel, LinePoint& point, LinePointCounts& counts) const {
     Vec2 tangent;
-    if (!direction_at(input_.skeleton, pixel, tangent)) return fail(counts.no_direction);
+    if (!direction_at(input_.skeleton, pixel, radius_, tangent)) return fail(counts.no_direction);
     const Vec2 normal{-tangent.v, tangent.u};
     const Vec2 start{static_cast<float>(pixel.x) + 0.5F, static_cast<float>(pixel.y) + 0.5F};
     Vec2 middle;
@@ -231,6 +223,7 @@ class PointFinder {
   const LinePointInput& input_;
   float scale_u_;
   float scale_v_;
+  int radius_;
 };
 
 }  // namespace
