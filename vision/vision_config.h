@@ -31,6 +31,7 @@ struct VisionConfig {
   int line_erode_px = 3;
 
   float line_width_m = 0.05F;  // of the field
+  float circle_radius_m = 0.75F;  // of the field; 0: none
   float post_diameter_m = 0.10F;
   bool white_posts = false;  // search white posts in place of yellow ones
 

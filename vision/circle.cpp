@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/circle.h"
+
+namespace touchline {
+namespace {
+
+constexpr float bin_width = math::two_pi / static_cast<float>(circle_bins);
+constexpr int vote_step = 3;         // every third point begins a vote
+constexpr float chord_radii = 1.0F;  // of a vote: 60 degrees of arc, which bulge by 0.13 radii
+constexpr float vote_gather_radii = 0.3F;
+constexpr int refinements = 6;
+constexpr float min_arc = radians(60.0F);
+constexpr int max_gap_bins = 4;      // 20 degrees may be hidden, as by a foot
+constexpr float beside_radii = 0.35F;
+constexpr int max_beside = 30;           // percent of directions with line points beside the circle alone
+constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
+constexpr float gate = 2.5F;         // sigmas
+constexpr float sigma_tilt = radians(0.5F);
+
+float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
+
+class CircleFinder {
+ public:
+  CircleFinder(LineSegments& lines, const WorkRays& rays, const CircleParameters& parameters, CircleWork& work)
+      : lines_(lines), rays_(rays), parameters_(parameters), work_(work) {}
+
+  bool run(CircleObservation& circle);
+
+ private:
+  void vote();
+  void vote(std::size_t i, std::size_t middle, std::size_t k);
+  [[nodiscard]] bool best_vote(GroundPoint& centre) const;
+  [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre) const;
+  [[nodiscard]] bool near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const;
+  bool refine(GroundPoint& centre, Sym2& information, float& chi) const;
+  float arc(const GroundPoint& centre);
+  [[nodiscard]] bool contradicted(const GroundPoint& centre) const;
+  void flag_arcs(const GroundPoint& centre);
+  void find_half_line(CircleObservation& circle) const;
+  [[nodiscard]] Sym2 covariance(const GroundPoint& centre, const Sym2& information) const;
+
+  LineSegments& lines_;
+  const WorkRays& rays_;
+  const CircleParameters& parameters_;
+  CircleWork& work_;
+};
+
+/// Three points of a chain a radius apart.
+void CircleFinder::vote() {
+  work_.votes.clear();
+  const auto& points = lines_.points;
+  const float chord = chord_radii * parameters_.radius_m;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < points.size(); i += vote_step) {
+    if (k < i) k = i;
+    while (k < points.size() && points[k].chain == points[i].chain &&
+           distance(points[k].ground, points[i].ground) < chord)
+      ++k;
+    if (k < points.size() && points[k].chain == points[i].chain) vote(i, (i + k) / 2, k);
+  }
+}
+
+void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
+  const GroundPoint& a = lines_.points[i].ground;
+  const GroundPoint& b = lines_.points[k].ground;
+  const GroundPoint& m = lines_.points[middle].ground;
+  const float r = parameters_.radius_m;
+  const float chord = distance(a, b);
+  if (!(chord < 1.6F * r) || !(chord > 1.0e-3F)) return;  // a jump in the chain
+  const GroundPoint half{0.5F * (a.x + b.x), 0.5F * (a.y + b.y)};
+  GroundPoint normal{-(b.y - a.y) / chord, (b.x - a.x) / chord};
+  // The middle of the arc lies beyond the chord, seen from the centre.
+  const float bulge = (m.x - half.x) * normal.x + (m.y - half.y) * normal.y;
+  const float height = math::sqrt(r * r - 0.25F * chord * chord);
+  const float expected = r - height;
+  const float noise = 2.0F * skeleton_px * lines_.points[middle].metres_per_pixel;
+  const float allowed = 0.5F * expected + math::min(noise, 0.5F * expected);
+  if (math::abs(math::abs(bulge) - expected) > allowed || math::abs(bulge) < 0.25F * expected) return;
+  const float side = bulge > 0.0F ? -height : height;
+  work_.votes.push_back({half.x + side * normal.x, half.y + side * normal.y});
+}
+
+bool CircleFinder::best_vote(GroundPoint& centre) const {
+  int most = 1;
+  for (const GroundPoint& v : work_.votes) {
+    int count = 0;
+    GroundPoint sum;
+    for (const GroundPoint& w : work_.votes) {
+      if (distance(v, w) > vote_gather_radii * parameters_.radius_m) continue;
+      ++count;
+      sum.x += w.x;
+      sum.y += w.y;
+    }
+    if (count <= most) continue;
+    most = count;
+    centre = {sum.x / static_cast<float>(count), sum.y / static_cast<float>(count)};
+  }
+  return most > 1;
+}
+
+/// Of a skeleton point, across the circle: what a pixel means in that direction, and the rag of a wide line.
+float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre) const {
+  const CameraPose& pose = rays_.projection().pose();
+  const float x = p.x - pose.x;
+  const float y = p.y - pose.y;
+  const float range = math::hypot(x, y) + 1.0e-6F;
+  const float depth = math::hypot(range, pose.height);
+  const float across = depth * rays_.radians_per_pixel() * skeleton_px;
+  const float towards = across * depth / pose.height;
+  const float radius = distance(p, centre) + 1.0e-6F;
+  const float c = (x * (p.x - centre.x) + y * (p.y - centre.y)) / (range * radius);
+  return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c) +
+                    math::square(0.1F * parameters_.line_width_m));
+}
+
+bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const {
+  off = distance(p, centre) - parameters_.radius_m;
+  if (math::abs(off) > 0.4F * parameters_.radius_m) return false;
+  sigma_m = sigma(p, centre);
+  return math::abs(off) < gate * sigma_m;
+}
+
+/// Gauss-Newton on the centre; the radius is known.
+bool CircleFinder::refine(GroundPoint& centre, Sym2& information, float& chi) const {
+  for (int n = 0; n < refinements; ++n) {
+    information = {};
+    float bx = 0.0F, by = 0.0F, sum = 0.0F, weights = 0.0F;
+    for (const ChainPoint& p : lines_.points) {
+      float off = 0.0F, sigma_m = 1.0F;
+      if (!near_circle(p.ground, centre, off, sigma_m)) continue;
+      const float d = off + parameters_.radius_m;
+      const float ux = (p.ground.x - centre.x) / d;
+      const float uy = (p.ground.y - centre.y) / d;
+      const float w = 1.0F / (sigma_m * sigma_m);
+      information.xx += w * ux * ux;
+      information.xy += w * ux * uy;
+      information.yy += w * uy * uy;
+      bx += w * ux * off;
+      by += w * uy * off;
+      sum += w * off * off;
+      weights += 1.0F;
+    }
+    const float det = information.xx * information.yy - information.xy * information.xy;
+    if (weights < 8.0F || !(det > 1.0e-4F * math::square(information.xx + information.yy))) return false;
+    centre.x += (bx * information.yy - by * information.xy) / det;
+    centre.y += (by * information.xx - bx * information.xy) / det;
+    chi = math::sqrt(sum / weights);
+  }
+  return true;
+}
+
+/// Marks the parts of the circle that its arcs cover; the longest run of them, in radians, where gaps up to
+/// max_gap_bins count as seen. Only segments that lie on the circle as a whole count: a straight line that touches the
+/// circle leaves it.
+float CircleFinder::arc(const GroundPoint& centre) {
+  for (bool& bin : work_.seen) bin = false;
+  for (const LineSegment& s : lines_.segments) {
+    if (!s.on_circle) continue;
+    const float from = math::atan2(s.end[0].y - centre.y, s.end[0].x - centre.x);
+    const float turn = angle_difference(math::atan2(s.end[1].y - centre.y, s.end[1].x - centre.x), from);
+    const int steps = static_cast<int>(math::abs(turn) / bin_width) + 1;
+    for (int i = 0; i <= steps; ++i) {
+      const float angle = wrap_angle(from + turn * static_cast<float>(i) / static_cast<float>(steps)) + math::pi;
+      const int bin = static_cast<int>(angle / bin_width);
+      work_.seen[bin < circle_bins ? bin : 0] = true;
+    }
+  }
+  int best = 0, run = 0, gap = 0, seen = 0;
+  for (int i = 0; i < 2 * circle_bins; ++i) {  // twice round, for the run across the seam
+    if (work_.seen[i % circle_bins]) {
+      if (i < circle_bins) ++seen;
+      run += gap + 1;
+      gap = 0;
+    } else if (run > 0 && ++gap > max_gap_bins) {
+      run = 0;
+      gap = 0;
+    }
+    if (run > best) best = run;
+  }
+  if (best > circle_bins) best = circle_bins;
+  // At least two thirds of the run are to be seen.
+  if (3 * seen < 2 * best) return 0.0F;
+  return static_cast<float>(best) * bin_width;
+}
+
+/// Lines that only touch the circle leave it slowly: they have points beside it, in directions where it has none. A true
+/// circle has only the half line beside it.
+bool CircleFinder::contradicted(const GroundPoint& centre) const {
+  enum : std::uint8_t { nothing = 0, on = 1, beside = 2 };
+  std::uint8_t bins[circle_bins] = {};
+  for (const ChainPoint& p : lines_.points) {
+    float off = distance(p.ground, centre) - parameters_.radius_m;
+    if (math::abs(off) > beside_radii * parameters_.radius_m) continue;
+    float sigma_m = 1.0F;
+    const bool near = near_circle(p.ground, centre, off, sigma_m);
+    const float angle = math::atan2(p.ground.y - centre.y, p.ground.x - centre.x) + math::pi;
+    const int bin = static_cast<int>(angle / bin_width);
+    bins[bin < circle_bins ? bin : 0] |= near ? on : beside;
+  }
+  int bins_on = 0, bins_beside = 0;
+  for (const std::uint8_t b : bins) {
+    if ((b & on) != 0) {
+      ++bins_on;
+    } else if (b == beside) {
+      ++bins_beside;
+    }
+  }
+  return bins_beside > max_beside * bins_on / 100;
+}
+
+void CircleFinder::flag_arcs(const GroundPoint& centre) {
+  for (LineSegment& s : lines_.segments) {
+    bool all = true;
+    for (int k = 0; k <= 4; ++k) {
+      const float t = static_cast<float>(k) / 4.0F;
+      const GroundPoint p{s.end[0].x + t * (s.end[1].x - s.end[0].x), s.end[0].y + t * (s.end[1].y - s.end[0].y)};
+      const float off = math::abs(distance(p, centre) - parameters_.radius_m);
+      all = all && off < 2.0F * sigma(p, centre) + 0.5F * parameters_.line_width_m;
+    }
+    s.on_circle = all;
+  }
+}
+
+/// The straight segment through the centre that lies nearest to it by what its direction's sigma allows.
+void CircleFinder::find_half_line(CircleObservation& circle) const {
+  float best = 0.0F;
+  for (const LineSegment& s : lines_.segments) {
+    if (s.on_circle) continue;
+    const GroundPoint to{circle.centre.x - s.end[0].x, circle.centre.y - s.end[0].y};
+    const float t = to.x * s.direction.x + to.y * s.direction.y;
+    const float off = math::abs(to.x * s.direction.y - to.y * s.direction.x);
+    const float beyond = math::max(0.0F, math::max(-t, t - s.length));
+    if (beyond > 1.5F * parameters_.radius_m) continue;
+    const float allowed =
+        0.12F * parameters_.radius_m + 2.0F * s.sigma * (beyond + 0.5F * s.length) + 0.5F * parameters_.line_width_m;
+    if (off > math::min(allowed, 0.4F * parameters_.radius_m)) continue;
+    const float score = s.length / (s.sigma + radians(1.0F));
+    if (score <= best) continue;
+    best = score;
+    circle.has_half_line = true;
+    float direction = math::atan2(s.direction.y, s.direction.x);
+    if (direction > math::half_pi) direction -= math::pi;
+    if (direction <= -math::half_pi) direction += math::pi;
+    circle.half_line_direction = direction;
+  }
+}
+
+Sym2 CircleFinder::covariance(const GroundPoint& centre, const Sym2& information) const {
+  const float det = information.xx * information.yy - information.xy * information.xy;
+  // Skeleton points beside each other share their error: count one in four.
+  Sym2 c{4.0F * information.yy / det, -4.0F * information.xy / det, 4.0F * information.xx / det};
+  PixelPoint pixel;
+  if (rays_.projection().pixel(centre, pixel)) {
+    const Sym2 tilt = rays_.projection().ground_covariance(pixel, 0.0F, sigma_tilt);
+    c.xx += tilt.xx;
+    c.xy += tilt.xy;
+    c.yy += tilt.yy;
+  }
+  return c;
+}
+
+bool CircleFinder::run(CircleObservation& circle) {
+  for (LineSegment& s : lines_.segments) s.on_circle = false;
+  GroundPoint centre;
+  Sym2 information;
+  float chi = 0.0F;
+  vote();
+  if (!best_vote(centre) || !refine(centre, information, chi)) return false;
+  flag_arcs(centre);
+  const float seen = arc(centre);
+  if (seen < min_arc || contradicted(centre)) {
+    for (LineSegment& s : lines_.segments) s.on_circle = false;
+    return false;
+  }
+  circle = {};
+  circle.centre = centre;
+  circle.covariance = covariance(centre, information);
+  circle.arc = seen;
+  // Full confidence for half a circle whose points scatter as skeleton points do.
+  circle.confidence = math::clamp(seen / math::pi, 0.3F, 1.0F) * math::clamp(1.5F - 0.5F * chi, 0.3F, 1.0F);
+  find_half_line(circle);
+  return true;
+}
+
+}  // namespace
+
+bool find_circle(LineSegments& lines, const WorkRays& rays, const CircleParameters& parameters, CircleWork& work,
+                 CircleObservation& circle) {
+  if (!(parameters.radius_m > 0.0F)) return false;  // a field without circle
+  return CircleFinder(lines, rays, parameters, work).run(circle);
+}
+
+}  // namespace touchline

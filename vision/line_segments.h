@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The straight stretches of a node graph, on the ground. The lens bends every line, so a skeleton is judged by its
+// rays: a straight line on the carpet and the camera span a plane, and the rays of the line's pixels lie in it. Each
+// chain of edges is split where it leaves the plane (Ramer 1972, Douglas and Peucker 1973, with the distance to the
+// chord as an angle), and a plane is fitted to the inside of each stretch by least squares.
+#pragma once
+
+#include <cstdint>
+
+#include "platform/core/static_vector.h"
+#include "vision/graph.h"
+#include "vision/work_rays.h"
+
+namespace touchline {
+
+struct LineSegment {
+  Vec3 normal;            // unit; of the plane through camera and line
+  GroundPoint end[2];     // robot's frame, on the fitted line
+  Vec3 end_ray[2];        // towards them, unit
+  GroundPoint direction;  // unit vector from end[0] to end[1]
+  float length = 0.0F;    // metres
+  float sigma = 0.0F;     // of the direction, radians: half a working pixel at each end
+  std::uint16_t chain = 0;
+  std::uint16_t points = 0;
+  bool on_circle = false;  // set by the centre circle's fit
+};
+
+/// A skeleton point on the ground, in the order along its chain.
+struct ChainPoint {
+  GroundPoint ground;
+  float metres_per_pixel = 0.0F;  // towards and away from the camera, where a pixel means most
+  std::uint16_t chain = 0;
+};
+
+inline constexpr std::size_t max_segments = 128;      // the longest field's 17 lines in pieces, and a circle in 16
+inline constexpr std::size_t max_chain_points = 512;  // longer chains are thinned out
+inline constexpr std::size_t max_curve_points = 768;  // of the frame; chains are thinned out to fit
+
+struct LineSegments {
+  StaticVector<LineSegment, max_segments> segments;
+  StaticVector<ChainPoint, max_curve_points> points;  // for the circle's fit
+  // Working memory: the points of one chain, and which edges belong to a chain that has been read.
+  struct RayPoint {
+    Vec3 ray;
+    GroundPoint ground;
+  };
+  StaticVector<RayPoint, max_chain_points> chain;
+};
+
+struct LineSegmentParameters {
+  float line_width_m = 0.05F;
+  float max_range_m = 6.0F;
+};
+
+/// `edge_done` has one entry an edge of the graph. Segments and points without room are counted in their dropped().
+void find_line_segments(const NodeGraphView& graph, const WorkRays& rays, const LineSegmentParameters& parameters,
+                        std::span<std::uint8_t> edge_done, LineSegments& out);
+
+}  // namespace touchline
