@@ -7,6 +7,9 @@
 #include "vision/digestion.h"
 #include "vision/ground_mask.h"
 #include "vision/image/bit_ops.h"
+#include "vision/image/contour.h"
+#include "vision/image/grow.h"
+#include "vision/image/hull.h"
 #include "vision/image/morphology.h"
 #include "vision/line_points.h"
 #include "vision/node_graph.h"
@@ -174,20 +177,23 @@ void Pipeline::find_green_stage(VisionResult& result) {
 void Pipeline::find_roi(VisionResult& result) {
   const BitView& field = views_.mask(MaskId::field);
   const BitView& roi = views_.mask(MaskId::roi);
-  copy(views_.mask(MaskId::clean_green), field);
+  clear(field);
   clear(roi);
-  for (int y = 0; y < roi.height; ++y) {
-    int first = roi.width;
-    int last = -1;
-    for (int i = 0; i < words_for(roi.width); ++i) {
-      const BitWord word = field.row(y)[i];
-      if (word == 0) continue;
-      first = std::min(first, i * bits_per_word + std::countr_zero(word));
-      last = i * bits_per_word + bits_per_word - 1 - std::countl_zero(word);
-    }
-    if (last >= first) set_span(roi, y, first, last, true);
+  const BlobCount blobs = find_blobs(result.green, memory_.blob_search, memory_.blobs);
+  result.counts.dropped_blobs = blobs.dropped;
+  const int largest = largest_blob(memory_.blobs.first(static_cast<std::size_t>(blobs.found)));
+  if (largest >= 0) {
+    const GridPoint first = memory_.blobs[static_cast<std::size_t>(largest)].first;
+    field.set(first.x, first.y, true);
+    grow_inside(field, result.green);
+    const Contour contour = trace_contour(field, first, memory_.contour);
+    result.contour = memory_.contour.first(static_cast<std::size_t>(contour.points));
+    result.counts.dropped_contour_points = contour.dropped;
+    const int corners = hull_of_mask(field, memory_.hull_scratch, memory_.hull);
+    result.hull = memory_.hull.first(static_cast<std::size_t>(corners));
+    fill_hull(roi, result.hull);
+    and_with(roi, views_.mask(MaskId::ground));
   }
-  and_with(roi, views_.mask(MaskId::ground));
   result.field = field;
   result.roi = roi;
   result.counts.roi_pixels = count(roi);

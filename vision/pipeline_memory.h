@@ -9,6 +9,8 @@
 #include "vision/features.h"
 #include "vision/graph.h"
 #include "vision/graph_storage.h"
+#include "vision/image/blobs.h"
+#include "vision/image/canny.h"
 #include "vision/image/bit_image.h"
 #include "vision/image/frame_fifo.h"
 #include "vision/image/subsample.h"
@@ -30,6 +32,7 @@ enum class MaskId : std::uint8_t {
   candidates,  // white search united with Canny
   line_mask,
   skeleton,
+  edges,       // Canny's, before the rule of white and green
   scratch,
   count,
 };
@@ -52,6 +55,12 @@ struct PipelineMemory {
   std::span<LineWidth> line_widths;
   std::span<ThinningScratch> thinning;
   std::span<GridPoint> stack;
+  BlobMemory blob_search;
+  std::span<Blob> blobs;
+  std::span<GridPoint> contour;       // corners of the field's outline
+  std::span<GridPoint> hull;          // two a row, and one
+  std::span<GridPoint> hull_scratch;  // likewise
+  CannyMemory canny;
   GraphMemory graph;
   Features* features = nullptr;
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "vision/image/frame.h"
+#include "vision/image/hull.h"
 #include "vision/pipeline_memory.h"
 
 namespace touchline {
@@ -29,6 +30,12 @@ class PipelineStorage {
     m.line_widths = line_widths_;
     m.thinning = thinning_;
     m.stack = stack_;
+    m.blob_search = blob_search_.memory();
+    m.blobs = blobs_;
+    m.contour = contour_;
+    m.hull = hull_;
+    m.hull_scratch = hull_scratch_;
+    m.canny = canny_.memory();
     m.graph = graph_.memory();
     m.features = &features_;
     return m;
@@ -46,12 +53,19 @@ class PipelineStorage {
   std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(H))> thinning_{};
   // Pixels that wait while a piece of skeleton is followed, depth first: three a fork at the most.
   std::array<GridPoint, 512> stack_{};
+  BlobStorage<W> blob_search_{};
+  std::array<Blob, 64> blobs_{};  // pieces of green, largest first kept: the field, boards, chairs, clothes
+  // A clean outline of a field has some 200 corners at 320x240; noise along its border up to one a pixel.
+  std::array<GridPoint, static_cast<std::size_t>(2 * (W + H))> contour_{};
+  std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_{};
+  std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_scratch_{};
+  CannyStorage<W> canny_{};
   GraphStorage<W, H> graph_{};
   Features features_{};
 };
 
 // The budget at 320x240.
-static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 960 * 1024);
-static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 480 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 1000 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 544 * 1024);
 
 }  // namespace touchline

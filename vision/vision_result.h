@@ -44,7 +44,8 @@ struct VisionResult {
   ConstYuv420View mean;  // working size
   ConstBitView green;    // after erosion and dilation
   ConstBitView field;    // the largest blob
-  std::span<const GridPoint> hull;
+  std::span<const GridPoint> contour;  // of the largest blob, corner by corner
+  std::span<const GridPoint> hull;     // of the contour
   ConstBitView roi;
   ConstBitView candidates;  // white search united with Canny
   ConstBitView line_mask;
