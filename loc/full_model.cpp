@@ -19,6 +19,8 @@ constexpr float missing_nats_per_metre = 4.0F;
 constexpr float temper = 0.5F;              // measurements share the frame's errors: half of what independence would give
 constexpr float max_step_nats = 5.0F;       // what one frame may say at most: one bad frame must not lose the pose
 constexpr float search_share = 0.10F;       // of AMCL: from here on the frame's own candidates are looked for
+constexpr float negligible_mass = 1e-3F;    // by the particles' own weights: not worth a closer look
+constexpr int polish_steps = 3;             // of the best mode on all samples; the others saw the evenly thinned ones
 
 struct Factor {  // lower-triangular square root of a 3x3 covariance
   float l00, l10, l11, l20, l21, l22;
@@ -44,12 +46,14 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   const float average = weigh_particles(yaw);
   if (observation_.line_weight > 1.0F) augmented_.update(average, config_.augmented);
   const float share = frames_ == 0 ? 0.5F : augmented_.random_share(config_.augmented);
-  const bool unsure = !last_.valid || last_.confidence < config_.confident;
+  const bool unsure = !last_.valid || certainty(last_) < config_.confident;
   if (unsure || share > search_share) inject_candidates(yaw, math::max(share, unsure ? 0.25F : 0.0F));
   find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
   refine_clusters(vision, yaw);
+  balance_twins(yaw);
   share_out_mass();
   sharpen_particles(cluster_index_);
+  polish_best(yaw);
   report_full(estimate);
   settle(estimate, 0.01F, radians(0.5F));
   resample(yaw, math::min(share, 0.3F));
@@ -95,45 +99,92 @@ void Localizer::inject_candidates(const YawEvidence& yaw, float share) {
   }
 }
 
+RefinementPrior Localizer::refinement_prior(const YawEvidence& yaw, bool tracked) const {
+  RefinementPrior prior;
+  prior.tilt_sigma = config_.tilt_sigma;
+  prior.has_yaw = yaw.known;
+  prior.yaw = yaw.theta;
+  prior.yaw_sigma = yaw.sigma;
+  prior.has_pose = tracked;
+  prior.pose = last_.pose;
+  prior.covariance = last_.covariance;
+  return prior;
+}
+
 void Localizer::refine_clusters(const VisionResult& vision, const YawEvidence& yaw) {
   modes_.clear();
   for (const Cluster& cluster : clusters_) {
     Mode mode;
-    mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
-    RefinementPrior prior;
-    prior.tilt_sigma = config_.tilt_sigma;
-    prior.has_yaw = yaw.known;
-    prior.yaw = yaw.theta;
-    prior.yaw_sigma = yaw.sigma;
-    prior.has_pose = mode.tracked;
-    prior.pose = last_.pose;
-    prior.covariance = last_.covariance;
-    const Pose2 start = mode.tracked ? last_.pose : cluster.mean;
-    mode.refined = refine_pose(field_, observation_.lines.span(), observation_.camera, start, prior,
-                               mode.tracked ? 0.2F : 0.4F, mode.tracked ? 5 : 8);
-    if (observation_.line_weight < 1.0F || !mode.refined.converged) {  // nothing to refine on: the particles know best
-      mode.refined.pose = cluster.mean;
-      mode.refined.covariance = cluster.covariance;
-    }
-    const Visibility look = check_visibility(field_, vision, mode.refined, range_for_visibility);
-    mode.evidence =
-        temper * (mode.refined.line_log_likelihood - missing_nats_per_metre * look.missing +
-                  landmark_log_likelihood(field_, observation_, config_.landmarks, mode.refined.pose, 0.05F)) +
-        yaw_log_likelihood(yaw, mode.refined.pose.theta) -
-        0.5F * (math::square(mode.refined.pitch_error) + math::square(mode.refined.roll_error)) /
-            math::square(config_.tilt_sigma);
+    mode.negligible = cluster.mass < negligible_mass;
+    mode.refined.pose = cluster.mean;
+    mode.refined.covariance = cluster.covariance;
+    if (!mode.negligible) look_closely(cluster, vision, yaw, mode);
     modes_.push_back(mode);
   }
+}
+
+void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode) {
+  mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
+  if (observation_.line_weight >= 1.0F) {  // else there is nothing to refine on, and the particles know best
+    const Refinement refined = refine_pose(field_, observation_.filter_lines.span(), observation_.camera,
+                                           mode.tracked ? last_.pose : cluster.mean,
+                                           refinement_prior(yaw, mode.tracked), mode.tracked ? 0.2F : 0.4F,
+                                           mode.tracked ? 5 : 8);
+    if (refined.converged) mode.refined = refined;
+  }
+  const Refinement& r = mode.refined;
+  const Visibility look = check_visibility(field_, vision, r, range_for_visibility);
+  mode.evidence = temper * (r.line_log_likelihood - missing_nats_per_metre * look.missing +
+                            landmark_log_likelihood(field_, observation_, config_.landmarks, r.pose, 0.05F)) +
+                  yaw_log_likelihood(yaw, r.pose.theta) -
+                  0.5F * (math::square(r.pitch_error) + math::square(r.roll_error)) / math::square(config_.tilt_sigma);
+}
+
+/// The field is its own mirror image: nothing in a picture tells a pose from its mirrored twin, and what the numbers
+/// seem to say is noise that would pick a half by chance, frame by frame. Only the yaw may differ.
+void Localizer::balance_twins(const YawEvidence& yaw) {
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    for (std::size_t k = i + 1; k < modes_.size(); ++k) {
+      Mode& a = modes_[i];
+      Mode& b = modes_[k];
+      if (a.negligible || b.negligible || !near(a.refined.pose, mirrored(b.refined.pose), 0.15F, radians(8.0F))) continue;
+      const float yaw_a = yaw_log_likelihood(yaw, a.refined.pose.theta);
+      const float yaw_b = yaw_log_likelihood(yaw, b.refined.pose.theta);
+      const float picture = math::max(a.evidence - yaw_a, b.evidence - yaw_b);
+      a.evidence = picture + yaw_a;
+      b.evidence = picture + yaw_b;
+    }
+  }
+}
+
+Localizer::Mode* Localizer::best_mode() {
+  Mode* best = nullptr;
+  for (Mode& m : modes_) {
+    // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
+    if (best == nullptr || m.mass * (m.tracked ? 2.0F : 1.0F) > best->mass * (best->tracked ? 2.0F : 1.0F)) best = &m;
+  }
+  return best;
+}
+
+void Localizer::polish_best(const YawEvidence& yaw) {
+  Mode* best = best_mode();
+  if (best == nullptr || !best->refined.converged) return;
+  const Refinement refined = refine_pose(field_, observation_.lines.span(), observation_.camera, best->refined.pose,
+                                         refinement_prior(yaw, best->tracked), 0.05F, polish_steps);
+  if (refined.converged) best->refined = refined;
 }
 
 /// Belief of a mode: its particles before this frame, times what the frame says of its refined pose.
 void Localizer::share_out_mass() {
   float best = -1e9F;
-  for (const Mode& m : modes_) best = math::max(best, m.evidence);
+  for (const Mode& m : modes_) {
+    if (!m.negligible) best = math::max(best, m.evidence);
+  }
   float sum = 0.0F;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const float prior = static_cast<float>(clusters_[i].count) / static_cast<float>(config_.particles);
-    modes_[i].mass = prior * math::exp(math::max(modes_[i].evidence - best, -max_step_nats));
+    const float difference = modes_[i].negligible ? -max_step_nats : modes_[i].evidence - best;
+    modes_[i].mass = prior * math::exp(math::max(difference, -max_step_nats));
     sum += modes_[i].mass;
   }
   for (Mode& m : modes_) m.mass = sum > 0.0F ? m.mass / sum : 0.0F;
@@ -173,11 +224,7 @@ void Localizer::resample(const YawEvidence& yaw, float random_share) {
 
 void Localizer::report_full(PoseEstimate& estimate) {
   estimate = {};
-  const Mode* best = nullptr;
-  for (const Mode& m : modes_) {
-    // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
-    if (best == nullptr || m.mass * (m.tracked ? 2.0F : 1.0F) > best->mass * (best->tracked ? 2.0F : 1.0F)) best = &m;
-  }
+  const Mode* best = best_mode();
   if (best == nullptr || (observation_.line_weight < 0.5F && !last_.valid)) return;
   estimate.valid = true;
   estimate.pose = best->refined.pose;

@@ -125,7 +125,7 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
   }
   const YawEvidence yaw = input.has_yaw ? yaw_.evidence(input.yaw, config_.yaw_sigma) : YawEvidence{};
   features_.update(input.odometry, vision, config_.landmarks, field_,
-                   last_.valid && last_.confidence > config_.confident ? &last_.pose : nullptr, config_.features);
+                   certainty(last_) > config_.confident ? &last_.pose : nullptr, config_.features);
   make_observation(vision, config_, observation_);
   if (config_.model == LocModel::full) {
     update_full(vision, yaw, estimate);
@@ -144,7 +144,7 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
 }
 
 void Localizer::settle(PoseEstimate& estimate, float spread_m, float spread_rad) {
-  const bool steady = estimate.valid && estimate.confidence > config_.confident && last_.valid &&
+  const bool steady = certainty(estimate) > config_.confident && last_.valid &&
                       math::hypot(estimate.pose.x - last_.pose.x, estimate.pose.y - last_.pose.y) < spread_m &&
                       math::abs(angle_difference(estimate.pose.theta, last_.pose.theta)) < spread_rad;
   steady_frames_ = steady ? steady_frames_ + 1 : 0;

@@ -55,6 +55,7 @@ class Localizer {
     float evidence = 0.0F;  // nats: how well the refined pose explains the frame
     float mass = 0.0F;      // belief, sums to 1 over the modes
     bool tracked = false;   // continues the pose of the frame before
+    bool negligible = false;  // not looked at closely: its particles alone are far too unlikely
   };
   using ModeList = StaticVector<Mode, max_clusters>;
 
@@ -68,7 +69,12 @@ class Localizer {
   float weigh_particles(const YawEvidence& yaw);
   void inject_candidates(const YawEvidence& yaw, float share);
   void refine_clusters(const VisionResult& vision, const YawEvidence& yaw);
+  void look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode);
+  [[nodiscard]] RefinementPrior refinement_prior(const YawEvidence& yaw, bool tracked) const;
+  void balance_twins(const YawEvidence& yaw);
   void share_out_mass();
+  [[nodiscard]] Mode* best_mode();
+  void polish_best(const YawEvidence& yaw);
   void sharpen_particles(const ClusterIndex& index);
   void resample(const YawEvidence& yaw, float random_share);
   void report_full(PoseEstimate& estimate);

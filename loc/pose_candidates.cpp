@@ -13,6 +13,9 @@ constexpr float coarse_sigma = 0.15F;  // m: half the spacing of the grid, diago
 constexpr float same_distance = 0.35F;
 constexpr float same_angle = radians(20.0F);
 constexpr float grid_step = 0.25F;
+constexpr std::size_t grid_samples = 48;  // of filter_lines: a coarse look needs no more
+// The widest field with 2 m of border on either side, and a column of nothing at either end.
+constexpr std::size_t max_grid_columns = static_cast<std::size_t>((max_field_width + 4.0F) / grid_step) + 4;
 
 bool same_place(const Pose2& a, const Pose2& b) {
   return math::square(a.x - b.x) + math::square(a.y - b.y) < same_distance * same_distance &&
@@ -94,14 +97,65 @@ struct Search {
     }
   }
 
+  /// Turned samples for one orientation, so that a position costs two additions and a look-up a sample.
+  struct Turned {
+    float x, y, inverse_variance, weight;
+    LineAxis axis;
+  };
+  using TurnedList = StaticVector<Turned, max_filter_samples>;
+
+  void turn_samples(float theta, TurnedList& turned) const {
+    const float c = math::cos(theta);
+    const float s = math::sin(theta);
+    const std::size_t step = (observation.filter_lines.size() + grid_samples - 1) / grid_samples;
+    for (std::size_t i = 0; i < observation.filter_lines.size(); i += step) {
+      const LineSample& p = observation.filter_lines[i];
+      const float variance = p.sigma * p.sigma + p.sigma_tilt * p.sigma_tilt + coarse_sigma * coarse_sigma;
+      turned.push_back({c * p.ground.x - s * p.ground.y, s * p.ground.x + c * p.ground.y, 1.0F / variance, p.weight,
+                        axis_of(c * p.dir_x - s * p.dir_y, s * p.dir_x + c * p.dir_y)});
+    }
+  }
+
+  [[nodiscard]] float grid_score(const TurnedList& turned, float x, float y) const {
+    float sum = 0.0F;
+    for (const Turned& t : turned) {
+      const float d = map.distance({x + t.x, y + t.y}, t.axis);
+      sum -= t.weight * robust_cost(d * d * t.inverse_variance);
+    }
+    return sum;
+  }
+
+  /// Only local maxima over the eight neighbours are considered in full: three rows of scores are enough to see them.
   void from_grid(float theta) {
+    TurnedList turned;
+    turn_samples(theta, turned);
     const int nx = static_cast<int>(field.half_carpet_length() / grid_step);
     const int ny = static_cast<int>(field.half_carpet_width() / grid_step);
-    for (int i = -nx; i <= nx; ++i) {
-      for (int k = -ny; k <= ny; ++k) {
-        consider({static_cast<float>(i) * grid_step, static_cast<float>(k) * grid_step, theta}, CandidateSource::grid);
+    const int columns = 2 * ny + 1;
+    std::array<std::array<float, max_grid_columns>, 3> rows;
+    for (auto& row : rows) row.fill(-1e9F);
+    for (int i = -nx; i <= nx + 1; ++i) {
+      auto& newest = rows[static_cast<std::size_t>((i + nx + 2) % 3)];
+      for (int k = 0; k < columns; ++k) {
+        newest[static_cast<std::size_t>(k + 1)] =
+            i > nx ? -1e9F
+                   : grid_score(turned, static_cast<float>(i) * grid_step, static_cast<float>(k - ny) * grid_step);
+      }
+      const auto& middle = rows[static_cast<std::size_t>((i + nx + 1) % 3)];
+      const auto& oldest = rows[static_cast<std::size_t>((i + nx) % 3)];
+      for (int k = 1; k <= columns && i > -nx; ++k) {
+        if (!is_peak(oldest, middle, newest, static_cast<std::size_t>(k))) continue;
+        consider({static_cast<float>(i - 1) * grid_step, static_cast<float>(k - 1 - ny) * grid_step, theta},
+                 CandidateSource::grid);
       }
     }
+  }
+
+  using GridRow = std::array<float, max_grid_columns>;
+  static bool is_peak(const GridRow& above, const GridRow& row, const GridRow& below, std::size_t k) {
+    const float here = row[k];
+    return here > row[k - 1] && here >= row[k + 1] && here > above[k - 1] && here > above[k] && here > above[k + 1] &&
+           here >= below[k - 1] && here >= below[k] && here >= below[k + 1];
   }
 };
 

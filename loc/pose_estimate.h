@@ -25,4 +25,7 @@ struct PoseEstimate {
   float yaw_drift = 0.0F;      // radians, estimated: IMU yaw minus theta
 };
 
+/// Belief in the pose up to the field's symmetry: without a yaw the two halves share what is known.
+inline float certainty(const PoseEstimate& e) { return e.valid ? e.confidence + e.mirror_confidence : 0.0F; }
+
 }  // namespace touchline
