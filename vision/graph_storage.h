@@ -18,6 +18,7 @@ struct GraphMemory {
   SkeletonIndexMemory index;
   DigestionMemory digestion;
   NodeGraphMemory graph;
+  std::span<std::uint8_t> edge_done;  // one an edge: it has been read into a chain
 };
 
 template <int W, int H>
@@ -50,11 +51,13 @@ struct GraphStorage {
   std::array<GraphNode, max_nodes> nodes{};
   std::array<GraphEdge, max_edges> edges{};
   std::array<GridPoint, max_points> points{};
+  std::array<std::uint8_t, max_edges> edge_done{};
 
   [[nodiscard]] GraphMemory memory() {
     return {{pixels, pixels_before},
             {tiles, tile_row_words, parent, weight, major_nodes},
-            {node_of, cluster, stack, first_pixel, expanded, nodes, edges, points}};
+            {node_of, cluster, stack, first_pixel, expanded, nodes, edges, points},
+            edge_done};
   }
 };
 

@@ -41,6 +41,13 @@ struct JunctionWork {
   StaticVector<JunctionCandidate, max_candidates> candidates;
 };
 
+/// Working memory of all stages from the graph to the junctions.
+struct FeatureWork {
+  LineSegments lines;
+  CircleWork circle;
+  JunctionWork junctions;
+};
+
 /// What can be seen of the carpet: green pixels and the region of interest.
 struct CarpetView {
   ConstBitView green;

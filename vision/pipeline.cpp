@@ -60,6 +60,11 @@ Status check(const VisionConfig& c, const char** what) {
   if (!(c.max_range_m > 0.1F && c.max_range_m < 100.0F)) return refuse(what, "max_range_m");
   if (c.green.hue_low > c.green.hue_high) return refuse(what, "green");
   if (c.digestion_radius_px < 1 || c.digestion_radius_px > 64) return refuse(what, "digestion_radius_px");
+  for (const int weight : {c.low_weight, c.medium_weight, c.high_weight}) {
+    if (weight < 0 || weight > 32767) return refuse(what, "low_weight, medium_weight, high_weight");
+  }
+  if (c.spur_px < 0 || c.spur_px > 64) return refuse(what, "spur_px");
+  if (!(c.circle_radius_m >= 0.0F && c.circle_radius_m < 10.0F)) return refuse(what, "circle_radius_m");
   return Status::ok;
 }
 
@@ -114,6 +119,9 @@ Status Pipeline::process(const FrameInput& input, VisionResult& result, StageObs
   run(Stage::candidates, &Pipeline::find_candidates);
   run(Stage::line_mask, &Pipeline::make_line_mask);
   run(Stage::thinning, &Pipeline::make_skeleton);
+  run(Stage::digestion, &Pipeline::digest_skeleton);
+  run(Stage::graph, &Pipeline::build_graph);
+  run(Stage::junctions, &Pipeline::find_features);
   run(Stage::line_points, &Pipeline::make_line_points);
   next.features = memory_.features;
   result = next;
@@ -230,6 +238,45 @@ void Pipeline::make_skeleton(VisionResult& result) {
   result.counts.skeleton_pixels = count(skeleton);
 }
 
+void Pipeline::digest_skeleton(VisionResult& result) {
+  (void)index_.build(result.skeleton);  // the memory was checked against the working size
+  const DigestionParameters parameters{scaled_length(config_.digestion_radius_px), config_.low_weight,
+                                       config_.medium_weight, config_.high_weight};
+  const DigestionResult digested = digest(index_, parameters, memory_.graph.digestion);
+  result.major_nodes = digested.major_nodes;
+  result.counts.major_nodes = static_cast<int>(digested.major_nodes.size());
+  result.counts.dropped_points = index_.dropped();
+  result.counts.dropped_nodes = digested.dropped;
+}
+
+void Pipeline::build_graph(VisionResult& result) {
+  const NodeGraphResult built = build_node_graph(index_, result.major_nodes, result.line_widths,
+                                                 {scaled_length(config_.spur_px)}, memory_.graph.graph);
+  result.graph = built.graph;
+  result.counts.dropped_points += built.dropped_points;
+  result.counts.dropped_nodes += built.dropped_nodes;
+  result.counts.dropped_edges = built.dropped_edges;
+}
+
+void Pipeline::find_features(VisionResult& result) {
+  FeatureWork& work = *memory_.feature_work;
+  Features& features = *memory_.features;
+  features.junctions.clear();
+  features.rejections.clear();
+  const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
+                      views_.height);
+  find_line_segments(result.graph, rays, {config_.line_width_m, config_.max_range_m}, memory_.graph.edge_done,
+                     work.lines);
+  features.has_circle =
+      find_circle(work.lines, rays, {config_.circle_radius_m, config_.line_width_m}, work.circle, features.circle);
+  const SeenCircle circle{features.circle, work.circle.seen, config_.circle_radius_m};
+  const int dropped =
+      find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, {result.green, result.roi},
+                     {config_.line_width_m, config_.max_range_m}, work.junctions, features);
+  result.counts.dropped_junctions =
+      dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
+}
+
 void Pipeline::make_line_points(VisionResult& result) {
   const LinePointInput input{result.mean.y,        result.skeleton,      result.line_mask,     result.projection,
                              config_.frame_width,  config_.frame_height, config_.line_width_m, config_.max_range_m};
@@ -241,6 +288,11 @@ void Pipeline::make_line_points(VisionResult& result) {
 int Pipeline::scaled(int px) const {
   const int length = (px * views_.width + reference_width / 2) / reference_width;
   return std::max(length | 1, 1);
+}
+
+/// A length of the configuration at the working width.
+int Pipeline::scaled_length(int px) const {
+  return (px * views_.width + reference_width / 2) / reference_width;
 }
 
 }  // namespace touchline

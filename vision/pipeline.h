@@ -27,7 +27,7 @@ struct FrameInput {
 class Pipeline {
  public:
   /// `memory` outlives the pipeline; it is that of a PipelineStorage<W, H, Depth>.
-  explicit Pipeline(const PipelineMemory& memory) : memory_(memory), subsampler_(memory.subsample) {}
+  explicit Pipeline(const PipelineMemory& memory) : memory_(memory), subsampler_(memory.subsample), index_(memory.graph.index) {}
 
   /// Checks config against the storage; on failure the old configuration stays and `what` names the key, when not null.
   Status configure(const VisionConfig& config, const Lens& lens, const char** what = nullptr);
@@ -53,8 +53,12 @@ class Pipeline {
   void find_candidates(VisionResult& result);
   void make_line_mask(VisionResult& result);
   void make_skeleton(VisionResult& result);
+  void digest_skeleton(VisionResult& result);
+  void build_graph(VisionResult& result);
+  void find_features(VisionResult& result);
   void make_line_points(VisionResult& result);
   [[nodiscard]] int scaled(int px) const;
+  [[nodiscard]] int scaled_length(int px) const;
 
   PipelineMemory memory_;
   VisionConfig config_;
@@ -65,6 +69,7 @@ class Pipeline {
   FrameFifo fifo_{{}, {}};
   std::array<Held, max_fifo_depth> held_{};  // the newest first
   CarpetModel carpet_;
+  SkeletonIndex index_;
 };
 
 }  // namespace touchline

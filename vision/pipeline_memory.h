@@ -15,6 +15,7 @@
 #include "vision/image/frame_fifo.h"
 #include "vision/image/subsample.h"
 #include "vision/image/thinning.h"
+#include "vision/junctions.h"
 #include "vision/line_width_table.h"
 #include "vision/ray_grid.h"
 
@@ -62,6 +63,7 @@ struct PipelineMemory {
   std::span<GridPoint> hull_scratch;  // likewise
   CannyMemory canny;
   GraphMemory graph;
+  FeatureWork* feature_work = nullptr;
   Features* features = nullptr;
 };
 

@@ -37,6 +37,7 @@ class PipelineStorage {
     m.hull_scratch = hull_scratch_;
     m.canny = canny_.memory();
     m.graph = graph_.memory();
+    m.feature_work = &feature_work_;
     m.features = &features_;
     return m;
   }
@@ -61,6 +62,7 @@ class PipelineStorage {
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_scratch_{};
   CannyStorage<W> canny_{};
   GraphStorage<W, H> graph_{};
+  FeatureWork feature_work_{};
   Features features_{};
 };
 
