@@ -41,6 +41,12 @@ float exact_distance(const Field& field, const FieldPoint& p, LineAxis axis) {
   return math::sqrt(best);
 }
 
+/// To the nearest step, at most the cap's 255.
+std::uint8_t quantised(float distance) {
+  const float half_steps = math::min(distance, DistanceField::cap) * (2.0F / DistanceField::unit);
+  return static_cast<std::uint8_t>((static_cast<int>(half_steps) + 1) / 2);
+}
+
 /// Straight lines are compared with `use_x` and `use_y`: whether lines along that axis take part.
 LineMatch nearest_straight(const Field& field, const FieldPoint& p, bool use_x, bool use_y, float& best) {
   LineMatch match;
@@ -101,8 +107,8 @@ void DistanceField::build(const Field& field) {
     for (int x = 0; x < columns_; ++x) {
       const FieldPoint p{static_cast<float>(x) * cell, static_cast<float>(y) * cell};
       const auto node = static_cast<std::size_t>(y * columns_ + x);
-      layers_[0][node] = static_cast<std::uint8_t>(math::min(exact_distance(field, p, LineAxis::x), cap) / unit + 0.5F);
-      layers_[1][node] = static_cast<std::uint8_t>(math::min(exact_distance(field, p, LineAxis::y), cap) / unit + 0.5F);
+      layers_[0][node] = quantised(exact_distance(field, p, LineAxis::x));
+      layers_[1][node] = quantised(exact_distance(field, p, LineAxis::y));
     }
   }
 }

@@ -56,11 +56,16 @@ class Field {
   static Status create(const FieldDimensions& dimensions, Field& out, const char** what = nullptr);
 
   [[nodiscard]] const FieldDimensions& dimensions() const { return dimensions_; }
-  [[nodiscard]] std::span<const FieldLine> lines() const { return lines_.span(); }
-  [[nodiscard]] std::span<const FieldLandmark> landmarks() const { return landmarks_.span(); }
-  [[nodiscard]] std::span<const FieldPoint> posts() const { return posts_.span(); }  // own two, then opponent's two
+  [[nodiscard]] std::span<const FieldLine> lines() const& { return lines_.span(); }
+  [[nodiscard]] std::span<const FieldLandmark> landmarks() const& { return landmarks_.span(); }
+  [[nodiscard]] std::span<const FieldPoint> posts() const& { return posts_.span(); }  // own two, then opponent's two
   /// None, or own and opponent's.
-  [[nodiscard]] std::span<const FieldPoint> penalty_marks() const { return penalty_marks_.span(); }
+  [[nodiscard]] std::span<const FieldPoint> penalty_marks() const& { return penalty_marks_.span(); }
+  // The spans refer into the field: a temporary would leave them dangling.
+  std::span<const FieldLine> lines() const&& = delete;
+  std::span<const FieldLandmark> landmarks() const&& = delete;
+  std::span<const FieldPoint> posts() const&& = delete;
+  std::span<const FieldPoint> penalty_marks() const&& = delete;
   /// Half of length (width) plus border: the carpet's edge.
   [[nodiscard]] float half_carpet_length() const { return dimensions_.length * 0.5F + dimensions_.border; }
   [[nodiscard]] float half_carpet_width() const { return dimensions_.width * 0.5F + dimensions_.border; }

@@ -122,7 +122,8 @@ TEST_CASE("a branch runs along paint, and there is none in the other directions"
 
 TEST_CASE("branches are ordered as in a junction: L turns left, T begins with the stem, X goes round") {
   for (const char* name : presets) {
-    for (const FieldLandmark& mark : make(name).landmarks()) {
+    const Field field = make(name);
+    for (const FieldLandmark& mark : field.landmarks()) {
       const float quarter = angle_difference(mark.direction[1], mark.direction[0]);
       CHECK(quarter == doctest::Approx(static_cast<double>(math::half_pi)));
       if (mark.type == JunctionType::t) {
