@@ -2,7 +2,6 @@
 // From three camera channels to full-range YCbCr: integer matrices with 14-bit coefficients (BT.601, JPEG convention).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "vision/image/frame.h"
@@ -13,7 +12,7 @@ inline constexpr int colour_bits = 14;
 
 /// result = (a c0 + b c1 + c c2 + offset) / 2^14, rounded to nearest.
 struct ColourRow {
-  std::int32_t a = 0, b = 0, c = 0;
+  std::int16_t a = 0, b = 0, c = 0;
   std::int32_t offset = 0;
 };
 struct ColourMatrix {
@@ -25,8 +24,8 @@ constexpr ColourMatrix colour_matrix(PixelFormat format) {
   constexpr std::int32_t middle = 128 << colour_bits;
   if (format == PixelFormat::yuyv) {
     // Limited range to full: Y = 255/219 (y - 16), C = 128 + 255/224 (c - 128).
-    constexpr std::int32_t luma = 19077;
-    constexpr std::int32_t chroma = 18651;
+    constexpr std::int16_t luma = 19077;
+    constexpr std::int16_t chroma = 18651;
     constexpr std::int32_t chroma_offset = middle - 128 * chroma;
     return {{luma, 0, 0, -16 * luma}, {0, chroma, 0, chroma_offset}, {0, 0, chroma, chroma_offset}};
   }
@@ -34,15 +33,6 @@ constexpr ColourMatrix colour_matrix(PixelFormat format) {
     return {{1868, 9617, 4899, 0}, {8192, -5427, -2765, middle}, {-1332, -6860, 8192, middle}};
   }
   return {{4899, 9617, 1868, 0}, {-2765, -5427, 8192, middle}, {8192, -6860, -1332, middle}};
-}
-
-constexpr std::uint8_t clamp_to_byte(std::int32_t v) { return static_cast<std::uint8_t>(std::clamp(v, 0, 255)); }
-
-/// The row applied to one pixel whose channels carry `fraction_bits` more bits.
-constexpr std::uint8_t apply(const ColourRow& m, std::int32_t c0, std::int32_t c1, std::int32_t c2, int fraction_bits) {
-  const std::int32_t half = 1 << (colour_bits + fraction_bits - 1);
-  const std::int32_t sum = m.a * c0 + m.b * c1 + m.c * c2 + m.offset * (1 << fraction_bits) + half;
-  return clamp_to_byte(sum >> (colour_bits + fraction_bits));
 }
 
 }  // namespace touchline

@@ -7,13 +7,14 @@
 #include <numeric>
 
 #include "vision/image/colour_matrix.h"
+#include "vision/image/lanes.h"
 #include "vision/image/unpack.h"
 
 namespace touchline {
 namespace {
 
-/// Three channels and a pad: a pixel is then one vector of four. The fourth lane has no meaning.
-constexpr int lanes = 4;
+/// Three channels and one lane without a meaning: half a vector a pixel.
+constexpr int pixel_lanes = 4;
 
 /// 255 * 257 is the largest sum that 16 bit hold.
 constexpr int max_exact_cells = 257;
@@ -32,75 +33,113 @@ void add_row(const std::uint8_t* row, int count, int weight, bool first, std::ui
   }
 }
 
-/// A sum over `cells` in 16 bit to 8.6 bit by one multiplication: the factor is rounded up and the product down, which
-/// is exact for a sum of equal samples (the error is below cells * 255 / 65536 < 1 then).
-struct ScaleNarrow {
-  using Sum = std::uint16_t;
-  std::uint16_t factor = 0;
-  explicit ScaleNarrow(int cells) : factor(static_cast<std::uint16_t>(((1 << 22) + cells - 1) / cells)) {}
-  std::uint16_t operator()(Sum sum) const {
-    return static_cast<std::uint16_t>((std::uint32_t{sum} * std::uint32_t{factor}) >> 16);
-  }
-};
-
-/// A sum over 256 * 256 cells in 32 bit to 8.6 bit.
-struct ScaleWide {
-  using Sum = std::uint32_t;
-  std::uint16_t operator()(Sum sum) const { return static_cast<std::uint16_t>(sum >> (16 - fraction_bits)); }
-};
+/// Two rows of the same weight at once: the usual 480 to 240.
+void set_two_rows(const std::uint8_t* a, const std::uint8_t* b, int count, int weight, std::uint16_t* sums) {
+  const auto w = static_cast<std::uint16_t>(weight);
+  for (int i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>((a[i] + b[i]) * w);
+}
 
 struct ColumnTable {
   const std::uint16_t* first = nullptr;
   const std::uint16_t* weights = nullptr;
   int columns = 0;
   int taps = 0;
+  int period = 0;
 };
 
-/// Weighted sums of neighbouring pixels. Taps is their number when it is known at compile time, else 0.
-template <int Taps, typename Scale>
-void reduce_columns(const std::uint16_t* sums, ColumnTable table, Scale scale, std::uint16_t* out) {
-  using Sum = typename Scale::Sum;
-  const int taps = Taps != 0 ? Taps : table.taps;
-  const std::uint16_t* weight = table.weights;
-  for (int x = 0; x < table.columns; ++x, weight += taps) {
-    const std::uint16_t* source = sums + 3 * table.first[x];
-    Sum total[lanes] = {};
-    for (int t = 0; t < taps; ++t) {
-      for (int c = 0; c < lanes; ++c) {
-        total[c] = static_cast<Sum>(total[c] + static_cast<Sum>(Sum{source[3 * t + c]} * Sum{weight[t]}));
+/// Weighted sums of neighbouring pixels, two working columns at a time.
+template <int Taps>
+void reduce_pairs(const std::uint16_t* sums, ColumnTable table, std::uint16_t* out) {
+  for (int x = 0; x < table.columns;) {
+    const std::uint16_t* weights = table.weights;
+    const int end = std::min(x + table.period, table.columns);
+    for (; x < end; x += 2, weights += 2 * pixel_lanes * Taps) {
+      const std::uint16_t* left = sums + 3 * table.first[x];
+      const std::uint16_t* right = sums + 3 * table.first[x + 1];
+      U16x8 total = load_halves(left, right) * load_lanes(weights);
+      for (int t = 1; t < Taps; ++t) {
+        total += load_halves(left + 3 * t, right + 3 * t) * load_lanes(weights + 2 * pixel_lanes * t);
       }
+      store_lanes(total, out + pixel_lanes * x);
     }
-    for (int c = 0; c < lanes; ++c) out[lanes * x + c] = scale(total[c]);
   }
 }
+constexpr int max_pair_taps = 6;  // ratios up to 5
 
-template <typename Scale>
-void reduce_columns(const std::uint16_t* sums, ColumnTable table, Scale scale, std::uint16_t* out) {
+void reduce_pairs(const std::uint16_t* sums, ColumnTable table, std::uint16_t* out) {
   switch (table.taps) {
-    case 1: return reduce_columns<1>(sums, table, scale, out);
-    case 2: return reduce_columns<2>(sums, table, scale, out);
-    case 3: return reduce_columns<3>(sums, table, scale, out);
-    case 4: return reduce_columns<4>(sums, table, scale, out);
-    case 5: return reduce_columns<5>(sums, table, scale, out);
-    default: return reduce_columns<0>(sums, table, scale, out);
+    case 1: return reduce_pairs<1>(sums, table, out);
+    case 2: return reduce_pairs<2>(sums, table, out);
+    case 3: return reduce_pairs<3>(sums, table, out);
+    case 4: return reduce_pairs<4>(sums, table, out);
+    case 5: return reduce_pairs<5>(sums, table, out);
+    default: return reduce_pairs<max_pair_taps>(sums, table, out);
   }
 }
 
-void write_luma(const std::uint16_t* pixels, int width, const ColourRow& m, std::uint8_t* out) {
-  for (int x = 0; x < width; ++x, pixels += lanes) out[x] = apply(m, pixels[0], pixels[1], pixels[2], fraction_bits);
+/// The same, a column at a time, for sizes whose ratio is no small fraction. With rounded weights (`wide`) the result
+/// is in 8.6 bit.
+void reduce_columns(const std::uint16_t* sums, ColumnTable table, bool wide, std::uint16_t* out) {
+  const std::uint16_t* weight = table.weights;
+  for (int x = 0; x < table.columns; ++x, weight += table.taps) {
+    const std::uint16_t* source = sums + 3 * table.first[x];
+    std::uint32_t total[3] = {};
+    for (int t = 0; t < table.taps; ++t) {
+      for (int c = 0; c < 3; ++c) total[c] += std::uint32_t{source[3 * t + c]} * weight[t];
+    }
+    for (int c = 0; c < 3; ++c) {
+      out[pixel_lanes * x + c] = static_cast<std::uint16_t>(wide ? total[c] >> (16 - fraction_bits) : total[c]);
+    }
+  }
 }
 
-/// A chroma sample is that of the mean of its 2x2 pixels; at an odd border the last row or column counts twice.
-void write_chroma(const std::uint16_t* upper, const std::uint16_t* lower, int width, const ColourMatrix& m,
-                  std::uint8_t* cb, std::uint8_t* cr) {
-  const auto write = [&](int x, int left, int right) {
-    std::int32_t sum[3];
-    for (int c = 0; c < 3; ++c) sum[c] = upper[left + c] + upper[right + c] + lower[left + c] + lower[right + c];
-    cb[x] = apply(m.cb, sum[0], sum[1], sum[2], fraction_bits + 2);
-    cr[x] = apply(m.cr, sum[0], sum[1], sum[2], fraction_bits + 2);
-  };
-  for (int x = 0; x < width / 2; ++x) write(x, 2 * lanes * x, 2 * lanes * x + lanes);
-  if (width % 2 != 0) write(width / 2, lanes * (width - 1), lanes * (width - 1));
+/// From pixels to channels, eight pixels at a time.
+void split_channels(const std::uint16_t* pixels, int columns, std::uint16_t* c0, std::uint16_t* c1, std::uint16_t* c2) {
+  for (int x = 0; x < columns; x += subsample_lanes, pixels += pixel_lanes * subsample_lanes) {
+    const U16x8 p01 = load_lanes(pixels);
+    const U16x8 p23 = load_lanes(pixels + 8);
+    const U16x8 p45 = load_lanes(pixels + 16);
+    const U16x8 p67 = load_lanes(pixels + 24);
+    const U16x8 p04 = interleave_low(p01, p45);
+    const U16x8 p15 = interleave_high(p01, p45);
+    const U16x8 p26 = interleave_low(p23, p67);
+    const U16x8 p37 = interleave_high(p23, p67);
+    const U16x8 even01 = interleave_low(p04, p26);  // channels 0 and 1 of pixels 0, 2, 4, 6
+    const U16x8 odd01 = interleave_low(p15, p37);
+    const U16x8 even2 = interleave_high(p04, p26);
+    const U16x8 odd2 = interleave_high(p15, p37);
+    store_lanes(interleave_low(even01, odd01), c0 + x);
+    store_lanes(interleave_high(even01, odd01), c1 + x);
+    store_lanes(interleave_low(even2, odd2), c2 + x);
+  }
+}
+
+/// From 16-bit sums to 8.6 bit by one multiplication.
+void scale_row(std::uint16_t* row, int columns, std::uint16_t factor) {
+  for (int x = 0; x < columns; ++x) row[x] = static_cast<std::uint16_t>((std::uint32_t{row[x]} * factor) >> 16);
+}
+
+/// One plane of the result. 8.6 bit times 14 bit stays below 2^31.
+void change_colour(const std::uint16_t* c0, const std::uint16_t* c1, const std::uint16_t* c2, int columns,
+                   const ColourRow& m, std::uint8_t* out) {
+  constexpr int shift = colour_bits + fraction_bits;
+  const std::int32_t offset = m.offset * (1 << fraction_bits) + (1 << (shift - 1));
+  const std::int16_t a = m.a, b = m.b, c = m.c;
+  for (int x = 0; x < columns; ++x) {
+    const std::int32_t sum = a * static_cast<std::int16_t>(c0[x]) + b * static_cast<std::int16_t>(c1[x]) +
+                             c * static_cast<std::int16_t>(c2[x]) + offset;
+    out[x] = static_cast<std::uint8_t>(std::clamp(sum >> shift, 0, 255));
+  }
+}
+
+/// Means of 2x2; at an odd border the last column counts twice.
+void halve(const std::uint16_t* upper, const std::uint16_t* lower, int columns, std::uint16_t* out) {
+  for (int x = 0; x < columns / 2; ++x) {
+    out[x] = static_cast<std::uint16_t>((upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) >> 2);
+  }
+  if (columns % 2 != 0) {
+    out[columns / 2] = static_cast<std::uint16_t>((upper[columns - 1] + lower[columns - 1] + 1) >> 1);
+  }
 }
 
 /// Weights of one working pixel: calls visit(source, weight) for each source that shares area with it, in order.
@@ -115,7 +154,19 @@ void for_each_tap(const AreaAxis& axis, int target, Visit visit) {
   }
 }
 
-AreaAxis make_axis(int source, int target, int cell) { return {source, target, cell}; }
+/// The most sources that a target takes, from its first to its last.
+int most_taps(const AreaAxis& axis) {
+  int taps = 0;
+  for (int x = 0; x < axis.target; ++x) {
+    int first = -1, last = 0;
+    for_each_tap(axis, x, [&](int i, int) {
+      if (first < 0) first = i;
+      last = i;
+    });
+    taps = std::max(taps, last - first + 1);
+  }
+  return taps;
+}
 
 bool has_size(const ImageView<std::uint8_t>& image, int width, int height) {
   return image.data != nullptr && image.width == width && image.height == height && image.stride >= width;
@@ -131,69 +182,96 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   const auto columns = static_cast<std::size_t>(work_width);
   const auto frame_columns = static_cast<std::size_t>(frame_width);
   if (memory_.first_column.size() < columns || memory_.weights.size() < 2 * columns + frame_columns ||
-      memory_.column_sums.size() < 3 * frame_columns + 1 || memory_.unpacked.size() < 3 * frame_columns ||
-      memory_.work_rows.size() < 2 * lanes * columns) {
+      memory_.column_sums.size() < 3 * frame_columns + subsample_lanes || memory_.unpacked.size() < 3 * frame_columns ||
+      memory_.work_rows.size() < static_cast<std::size_t>(10 * whole_lanes(work_width))) {
     return Status::capacity;
   }
 
   const int cell_x = frame_width / std::gcd(frame_width, work_width);
   const int cell_y = frame_height / std::gcd(frame_height, work_height);
   wide_ = cell_x * cell_y > max_exact_cells;
-  // Small ratios are taken several times: ScaleNarrow is the more exact the more cells there are.
+  // Small ratios are taken several times: scale_row() is the more exact the more cells there are.
   const int repeat = wide_ ? 1 : max_exact_cells / (cell_x * cell_y);
-  horizontal_ = make_axis(frame_width, work_width, wide_ ? rounded_cell : cell_x * repeat);
-  vertical_ = make_axis(frame_height, work_height, wide_ ? rounded_cell : cell_y);
-
-  taps_ = 0;
-  for (int x = 0; x < work_width; ++x) {
-    int first = -1, last = 0;
-    for_each_tap(horizontal_, x, [&](int i, int) {
-      if (first < 0) first = i;
-      last = i;
-    });
-    taps_ = std::max(taps_, last - first + 1);
-  }
-  std::fill(memory_.weights.begin(), memory_.weights.end(), std::uint16_t{0});
-  for (int x = 0; x < work_width; ++x) {
-    int first = -1;
-    for_each_tap(horizontal_, x, [&](int i, int weight) {
-      // At the right border the window is moved to the left, so that it never leaves the row.
-      if (first < 0) first = std::min(i, frame_width - taps_);
-      memory_.weights[static_cast<std::size_t>(x * taps_ + i - first)] = static_cast<std::uint16_t>(weight);
-    });
-    memory_.first_column[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(first);
-  }
+  horizontal_ = {frame_width, work_width, wide_ ? rounded_cell : cell_x * repeat};
+  vertical_ = {frame_height, work_height, wide_ ? rounded_cell : cell_y};
+  // Rounded up, as products are rounded down: exact for a sum of equal samples, where the error is below
+  // cells * 255 / 65536 < 1.
+  const int cells = horizontal_.cell * vertical_.cell;
+  scale_ = static_cast<std::uint16_t>(((1 << (16 + fraction_bits)) + cells - 1) / cells);
+  taps_ = most_taps(horizontal_);
+  // Pairs of columns need an even period.
+  const int period = std::lcm(work_width / std::gcd(frame_width, work_width), 2);
+  const bool pairs = !wide_ && work_width % 2 == 0 && taps_ <= max_pair_taps &&
+                     static_cast<std::size_t>(period * taps_ * pixel_lanes) <= memory_.weights.size();
+  period_ = pairs ? period : 0;
+  set_weights();
   configured_ = true;
   return Status::ok;
 }
 
-std::span<std::uint16_t> Subsampler::work_row(int index) {
-  const auto size = static_cast<std::size_t>(lanes * horizontal_.target);
-  return memory_.work_rows.subspan(size * static_cast<std::size_t>(index), size);
+void Subsampler::set_weights() {
+  std::fill(memory_.weights.begin(), memory_.weights.end(), std::uint16_t{0});
+  for (int x = 0; x < horizontal_.target; ++x) {
+    int first = -1;
+    for_each_tap(horizontal_, x, [&](int i, int weight) {
+      if (first < 0) {
+        // The last window may reach beyond the row: pairs read a column of no weight there, others move to the left.
+        first = period_ != 0 ? i : std::min(i, horizontal_.source - taps_);
+        memory_.first_column[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(first);
+      }
+      const int tap = i - first;
+      if (period_ == 0) {
+        memory_.weights[static_cast<std::size_t>(x * taps_ + tap)] = static_cast<std::uint16_t>(weight);
+      } else if (x < period_) {
+        const int vector = x / 2 * taps_ + tap;
+        const int lane = 2 * pixel_lanes * vector + x % 2 * pixel_lanes;
+        std::fill_n(memory_.weights.begin() + lane, 3, static_cast<std::uint16_t>(weight));
+      }
+    });
+  }
 }
 
-void Subsampler::make_work_row(const FrameView& frame, int y, std::uint16_t* out) {
-  bool first = true;
-  for_each_tap(vertical_, y, [&](int source, int weight) {
-    const std::uint8_t* row = unpack_row(frame, source, memory_.unpacked.data());
-    add_row(row, 3 * frame.width, weight, first, memory_.column_sums.data());
-    first = false;
-  });
-  const ColumnTable table = {memory_.first_column.data(), memory_.weights.data(), horizontal_.target, taps_};
-  if (wide_) {
-    reduce_columns(memory_.column_sums.data(), table, ScaleWide{}, out);
+/// Rows 0 and 1 are working rows; row -1, in place of the interleaved pixels, which are used up by then, takes chroma.
+Subsampler::Channels Subsampler::work_row(int index) const {
+  const int columns = whole_lanes(horizontal_.target);
+  const int offset = index < 0 ? 0 : (pixel_lanes + 3 * index) * columns;
+  std::uint16_t* row = memory_.work_rows.data() + offset;
+  return {{row, row + columns, row + 2 * columns}};
+}
+
+void Subsampler::make_work_row(const FrameView& frame, int y, const Channels& out) {
+  std::uint16_t* sums = memory_.column_sums.data();
+  const int samples = 3 * frame.width;
+  if (needs_no_unpacking(frame.format) && vertical_.source == 2 * vertical_.target && vertical_.cell % 2 == 0) {
+    set_two_rows(unpack_row(frame, 2 * y, nullptr), unpack_row(frame, 2 * y + 1, nullptr), samples, vertical_.cell / 2,
+                 sums);
   } else {
-    reduce_columns(memory_.column_sums.data(), table, ScaleNarrow(horizontal_.cell * vertical_.cell), out);
+    bool first = true;
+    for_each_tap(vertical_, y, [&](int source, int weight) {
+      add_row(unpack_row(frame, source, memory_.unpacked.data()), samples, weight, first, sums);
+      first = false;
+    });
   }
+  const ColumnTable table = {memory_.first_column.data(), memory_.weights.data(), horizontal_.target, taps_, period_};
+  std::uint16_t* pixels = memory_.work_rows.data();
+  if (period_ != 0) {
+    reduce_pairs(sums, table, pixels);
+  } else {
+    reduce_columns(sums, table, wide_, pixels);
+  }
+  split_channels(pixels, horizontal_.target, out.channel[0], out.channel[1], out.channel[2]);
+  if (!wide_) scale_row(out.channel[0], 3 * whole_lanes(horizontal_.target), scale_);
 }
 
 Status Subsampler::run(const FrameView& frame, Yuv420View out) {
   if (!configured_) return Status::not_ready;
   const int width = horizontal_.target;
   const int height = vertical_.target;
+  const int chroma_width = (width + 1) / 2;
+  const int chroma_height = (height + 1) / 2;
   if (frame.width != horizontal_.source || frame.height != vertical_.source) return Status::wrong_size;
-  if (!has_size(out.y, width, height) || !has_size(out.cb, (width + 1) / 2, (height + 1) / 2) ||
-      !has_size(out.cr, (width + 1) / 2, (height + 1) / 2)) {
+  if (!has_size(out.y, width, height) || !has_size(out.cb, chroma_width, chroma_height) ||
+      !has_size(out.cr, chroma_width, chroma_height)) {
     return Status::wrong_size;
   }
   if (frame.data == nullptr || frame.stride_bytes < frame.width * bytes_per_pixel(frame.format) ||
@@ -202,17 +280,23 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
   }
 
   const ColourMatrix matrix = colour_matrix(frame.format);
+  const auto change = [](const Channels& row, int columns, const ColourRow& m, std::uint8_t* to) {
+    change_colour(row.channel[0], row.channel[1], row.channel[2], columns, m, to);
+  };
+  const Channels upper = work_row(0);
+  const Channels chroma = work_row(-1);
   for (int y = 0; y < height; y += 2) {
-    std::uint16_t* upper = work_row(0).data();
-    std::uint16_t* lower = upper;
     make_work_row(frame, y, upper);
-    write_luma(upper, width, matrix.y, out.y.row(y));
+    change(upper, width, matrix.y, out.y.row(y));
+    Channels lower = upper;
     if (y + 1 < height) {
-      lower = work_row(1).data();
+      lower = work_row(1);
       make_work_row(frame, y + 1, lower);
-      write_luma(lower, width, matrix.y, out.y.row(y + 1));
+      change(lower, width, matrix.y, out.y.row(y + 1));
     }
-    write_chroma(upper, lower, width, matrix, out.cb.row(y / 2), out.cr.row(y / 2));
+    for (int c = 0; c < 3; ++c) halve(upper.channel[c], lower.channel[c], width, chroma.channel[c]);
+    change(chroma, chroma_width, matrix.cb, out.cb.row(y / 2));
+    change(chroma, chroma_width, matrix.cr, out.cr.row(y / 2));
   }
   return Status::ok;
 }

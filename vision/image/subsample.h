@@ -16,10 +16,12 @@ namespace touchline {
 struct SubsampleMemory {
   std::span<std::uint16_t> first_column;  // a working column
   std::span<std::uint16_t> weights;       // 2 a working column and 1 a frame column
-  std::span<std::uint16_t> column_sums;   // 3 a frame column, and 1
+  std::span<std::uint16_t> column_sums;   // 3 a frame column, and a vector
   std::span<std::uint8_t> unpacked;       // 3 a frame column
-  std::span<std::uint16_t> work_rows;     // two rows with 4 a working column
+  std::span<std::uint16_t> work_rows;     // 10 a working column, with columns rounded up to whole vectors
 };
+inline constexpr int subsample_lanes = 8;  // of a vector
+constexpr int whole_lanes(int columns) { return (columns + subsample_lanes - 1) / subsample_lanes * subsample_lanes; }
 
 /// Storage for frames of up to FrameWidth and working images of up to WorkWidth columns.
 template <int FrameWidth, int WorkWidth>
@@ -28,9 +30,9 @@ struct SubsampleStorage {
   static constexpr std::size_t work = static_cast<std::size_t>(WorkWidth);
   std::array<std::uint16_t, work> first_column{};
   std::array<std::uint16_t, 2 * work + frame> weights{};
-  std::array<std::uint16_t, 3 * frame + 1> column_sums{};
+  std::array<std::uint16_t, 3 * frame + static_cast<std::size_t>(subsample_lanes)> column_sums{};
   std::array<std::uint8_t, 3 * frame> unpacked{};
-  std::array<std::uint16_t, 8 * work> work_rows{};
+  std::array<std::uint16_t, 10 * static_cast<std::size_t>(whole_lanes(WorkWidth))> work_rows{};
 
   [[nodiscard]] SubsampleMemory memory() { return {first_column, weights, column_sums, unpacked, work_rows}; }
 };
@@ -70,14 +72,21 @@ class Subsampler {
   Status run(const FrameView& frame, Yuv420View out);
 
  private:
-  void make_work_row(const FrameView& frame, int y, std::uint16_t* out);
-  [[nodiscard]] std::span<std::uint16_t> work_row(int index);
+  /// One working row as three rows of channels, in 8.6 bit.
+  struct Channels {
+    std::uint16_t* channel[3] = {};
+  };
+  void set_weights();
+  [[nodiscard]] Channels work_row(int index) const;
+  void make_work_row(const FrameView& frame, int y, const Channels& out);
 
   SubsampleMemory memory_;
   AreaAxis horizontal_;
   AreaAxis vertical_;
-  int taps_ = 0;       // most source columns that a working column needs
-  bool wide_ = false;  // sums need 32 bit: the weights are rounded
+  int taps_ = 0;    // most source columns that a working column needs
+  int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
+  std::uint16_t scale_ = 0;  // from sums to 8.6 bit, in 1/65536
+  bool wide_ = false;        // sums need 32 bit: the weights are rounded
   bool configured_ = false;
 };
 
