@@ -24,12 +24,12 @@ struct GraphMemory {
 template <int W, int H>
 struct GraphStorage {
   static constexpr std::size_t area = static_cast<std::size_t>(W) * static_cast<std::size_t>(H);
-  // The longest skeletons of field lines seen at 320x240 have about 1,500 pixels; one pixel in 16 is three times that.
-  // Only noise has more, and then the rows nearest to the robot are kept.
-  static constexpr std::size_t max_pixels = area / 16;
-  // Major nodes lie farther apart than the digestion radius, so a line of n pixels has n / 5; forks come on top. A
-  // quarter of the pixels is reached by noise alone.
-  static constexpr std::size_t max_nodes = max_pixels / 4;
+  // The longest skeletons of field lines seen at 320x240 have about 1,500 pixels; one pixel in 24 is twice that. Only
+  // noise has more, and then the rows nearest to the robot are kept.
+  static constexpr std::size_t max_pixels = area / 24;
+  // Major nodes lie farther apart than the digestion radius, so lines have a node every 8 pixels and forks come on top.
+  // A fifth of the pixels is reached by noise alone.
+  static constexpr std::size_t max_nodes = max_pixels / 5;
   static constexpr std::size_t max_edges = max_nodes * 3 / 2;            // most nodes have two ways, forks three
   static constexpr std::size_t max_points = max_pixels + 2 * max_edges;  // each pixel once, and both ends of every edge
   static constexpr std::size_t tiles_a_row = (W + 7) / 8;
@@ -40,10 +40,9 @@ struct GraphStorage {
   std::array<std::uint16_t, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> pixels_before{};
   std::array<BitWord, tiles_a_row * tile_rows> tiles{};
   std::array<BitWord, static_cast<std::size_t>(words_for(static_cast<int>(tiles_a_row))) * tile_rows> tile_row_words{};
-  std::array<PixelIndex, max_pixels> parent{};
+  std::array<std::uint16_t, max_pixels> pixel_labels{};  // the forest while digesting, then the node of each pixel
   std::array<std::int32_t, max_pixels> weight{};
   std::array<MajorNode, max_nodes> major_nodes{};
-  std::array<std::uint16_t, max_pixels> node_of{};
   std::array<PixelIndex, max_pixels> cluster{};
   std::array<std::uint16_t, max_pixels> stack{};
   std::array<std::uint16_t, max_nodes> first_pixel{};
@@ -55,8 +54,8 @@ struct GraphStorage {
 
   [[nodiscard]] GraphMemory memory() {
     return {{pixels, pixels_before},
-            {tiles, tile_row_words, parent, weight, major_nodes},
-            {node_of, cluster, stack, first_pixel, expanded, nodes, edges, points},
+            {tiles, tile_row_words, pixel_labels, weight, major_nodes},
+            {pixel_labels, cluster, stack, first_pixel, expanded, nodes, edges, points},
             edge_done};
   }
 };

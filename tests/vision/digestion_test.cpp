@@ -77,7 +77,7 @@ MatrixDigestion matrix_digestion(const Bits& image, const DigestionParameters& p
 }
 
 struct Forest {
-  std::unique_ptr<GraphStorage<320, 240>> storage = std::make_unique<GraphStorage<320, 240>>();
+  std::unique_ptr<GraphStorage<640, 480>> storage = std::make_unique<GraphStorage<640, 480>>();
   GraphMemory memory = storage->memory();
   SkeletonIndex index{memory.index};
   DigestionResult result;
@@ -184,11 +184,11 @@ TEST_CASE("more skeleton than the memory holds: the lower rows are kept, the res
     for (int x = 0; x < 320; ++x) image.view().set(x, y, true);
   }
   const Forest forest(image, {5, 1, 10, 100});
-  CHECK(forest.index.size() == 4800);
-  CHECK(forest.index.dropped() == 120 * 320 - 4800);
-  CHECK(forest.index.pixels().front().y == 240 - 2 * 15);
+  CHECK(forest.index.size() == 12800);
+  CHECK(forest.index.dropped() == 120 * 320 - 12800);
+  CHECK(forest.index.pixels().front().y == 240 - 2 * 40);
   CHECK(forest.index.at(0, 0) == no_pixel);
-  CHECK(forest.index.at(319, 238) == 4799);
+  CHECK(forest.index.at(319, 238) == 12799);
 }
 
 TEST_CASE("no room for all major nodes: the rest is counted") {

@@ -229,7 +229,7 @@ TEST_CASE("the worst frames fill the memory and are counted") {
     }
     const Graph g(image);
     CHECK(g.index.dropped() > 0);
-    CHECK(g.index.size() > 4400);
+    CHECK(g.index.size() > 2800);
     check_consistent(g, image);
   }
 }
