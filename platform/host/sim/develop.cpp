@@ -2,6 +2,7 @@
 #include "platform/host/sim/develop.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "platform/host/sim/vec.h"
 
@@ -19,68 +20,81 @@ std::array<float, 3> kernel(float sigma) {
 }
 
 /// Columns of one row, blurred over rows, with the ends repeated by `margin`.
-void blur_rows(const LightPlanes& light, int channel, int y, const std::array<float, 3>& k, float* out) {
-  const auto& plane = light.plane[static_cast<std::size_t>(channel)];
-  const auto row = [&](int r) {
-    return &plane[static_cast<std::size_t>(std::clamp(r, 0, light.height - 1)) * static_cast<std::size_t>(light.width)];
-  };
+void blur_rows(const LightRows& light, int channel, int y, const std::array<float, 3>& k, float* out) {
+  const int width = light.width();
+  const auto row = [&](int r) { return light.row(channel, std::clamp(r, 0, light.height() - 1)); };
   const float* a = row(y - 2);
   const float* b = row(y - 1);
   const float* c = row(y);
   const float* d = row(y + 1);
   const float* e = row(y + 2);
   float* to = out + margin;
-  for (int x = 0; x < light.width; ++x) to[x] = k[0] * c[x] + k[1] * (b[x] + d[x]) + k[2] * (a[x] + e[x]);
+  for (int x = 0; x < width; ++x) to[x] = k[0] * c[x] + k[1] * (b[x] + d[x]) + k[2] * (a[x] + e[x]);
   out[0] = out[1] = to[0];
-  to[light.width] = to[light.width + 1] = to[light.width - 1];
+  to[width] = to[width + 1] = to[width - 1];
 }
 
 }  // namespace
 
-void LightPlanes::resize(int w, int h) {
-  width = w;
-  height = h;
-  for (auto& p : plane) p.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+void LightRows::resize(int width, int height) {
+  width_ = width;
+  height_ = height;
+  values_.assign(static_cast<std::size_t>(width) * 3U * kept, 0.0F);
 }
 
 Developer::Developer() {
-  for (int i = 0; i <= table_size; ++i) {
-    const float linear = static_cast<float>(i) / table_size;
-    const float shown = i == 0 ? 0.0F : math::exp(math::log(linear) / display_gamma);
-    gamma_[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(shown * 255.0F * 16.0F + 0.5F);
-  }
   Rng rng(20, 15);
   noise_.generate(rng, 2, 2, 1.3F);  // demosaicing makes a sensor's noise a little smooth
 }
 
-void Developer::develop(const LightPlanes& light, const ImageEffects& effects, std::uint64_t noise_seed,
-                        std::vector<std::uint8_t>& rgb) {
-  const auto k = kernel(math::clamp(effects.blur_px, 0.0F, 1.2F));
-  const auto width = static_cast<std::size_t>(light.width);
-  rgb.resize(width * static_cast<std::size_t>(light.height) * 3U);
-  blurred_.resize((width + 2U * margin) * 2U);
-  float* vertical = blurred_.data();
-  float* both = vertical + width + 2U * margin;
+void Developer::develop_row(const LightRows& light, int channel, int y, std::uint8_t* out) {
+  const auto c = static_cast<std::size_t>(channel);
+  const int width = light.width();
+  blur_rows(light, channel, y, kernel_, vertical_.data());
+  const float* v = vertical_.data() + margin;
+  float* both = both_.data();
+  const auto [middle, next, far] = kernel_;
+  for (int x = 0; x < width; ++x) {
+    both[x] = middle * v[x] + next * (v[x - 1] + v[x + 1]) + far * (v[x - 2] + v[x + 2]);
+  }
+  const int across = shift_x_[c] + y / NoiseTile::size * 37;  // the tile repeats downwards, shifted
+  float* grain = grain_.data();
+  const std::int8_t* texels = noise_.row(y + shift_y_[c]);
+  for (int x = 0; x < width;) {  // runs up to the tile's edge
+    const int from = (x + across) % NoiseTile::size;
+    const int run = std::min(NoiseTile::size - from, width - x);
+    for (int i = 0; i < run; ++i) grain[x + i] = static_cast<float>(texels[from + i]);
+    x += run;
+  }
+  const float scale = noise_scale_;
+  for (int x = 0; x < width; ++x) {
+    const float shown = 255.0F * std::sqrt(std::min(both[x], 1.0F)) + grain[x] * scale + 0.5F;
+    out[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(shown, 0.0F), 255.0F)));
+  }
+}
+
+void Developer::begin(const LightRows& light, const ImageEffects& effects, std::uint64_t noise_seed) {
+  kernel_ = kernel(math::clamp(effects.blur_px, 0.0F, 1.2F));
+  noise_scale_ = effects.noise / NoiseTile::unit;
   Rng rng(noise_seed, 6);
-  const int strength = static_cast<int>(effects.noise / NoiseTile::unit * 16.0F * 64.0F + 0.5F);
-  for (int channel = 0; channel < 3; ++channel) {
-    const int shift_x = static_cast<int>(rng.below(NoiseTile::size));
-    const int shift_y = static_cast<int>(rng.below(NoiseTile::size));
-    for (int y = 0; y < light.height; ++y) {
-      blur_rows(light, channel, y, k, vertical);
-      const float* v = vertical + margin;
-      for (int x = 0; x < light.width; ++x) {
-        both[x] = (k[0] * v[x] + k[1] * (v[x - 1] + v[x + 1]) + k[2] * (v[x - 2] + v[x + 2])) * table_size;
-      }
-      std::uint8_t* out = &rgb[static_cast<std::size_t>(y) * width * 3U + static_cast<std::size_t>(channel)];
-      const int wrap = y / NoiseTile::size * 37;  // the tile repeats downwards, shifted
-      for (int x = 0; x < light.width; ++x) {
-        const int index = std::min(static_cast<int>(both[x]), table_size);
-        const int grain = noise_.texel(x + shift_x + wrap, y + shift_y) * strength;
-        const int value = (gamma_[static_cast<std::size_t>(index)] * 64 + grain + 8 * 64) >> 10;
-        out[3 * x] = static_cast<std::uint8_t>(std::clamp(value, 0, 255));
-      }
-    }
+  for (std::size_t c = 0; c < 3; ++c) {
+    shift_x_[c] = static_cast<int>(rng.below(NoiseTile::size));
+    shift_y_[c] = static_cast<int>(rng.below(NoiseTile::size));
+  }
+  const auto width = static_cast<std::size_t>(light.width());
+  vertical_.resize(width + 2U * margin);
+  both_.resize(width);
+  grain_.resize(width);
+  row_.resize(width * 3U);
+}
+
+void Developer::develop(const LightRows& light, int y, std::uint8_t* rgb) {
+  const auto width = static_cast<std::size_t>(light.width());
+  for (int c = 0; c < 3; ++c) develop_row(light, c, y, &row_[static_cast<std::size_t>(c) * width]);
+  for (std::size_t x = 0; x < width; ++x) {
+    rgb[3U * x] = row_[x];
+    rgb[3U * x + 1U] = row_[width + x];
+    rgb[3U * x + 2U] = row_[2U * width + x];
   }
 }
 

@@ -17,26 +17,45 @@ struct ImageEffects {
   bool supersample_edges = true;
 };
 
-/// Linear light of a frame, one plane a channel.
-struct LightPlanes {
-  int width = 0;
-  int height = 0;
-  std::array<std::vector<float>, 3> plane;
-  void resize(int w, int h);
+/// Linear light of the last rows of a frame, one plane a channel. A ring, since the whole would not stay in the cache.
+class LightRows {
+ public:
+  static constexpr int kept = 8;
+  void resize(int width, int height);
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+  /// `y` is one of the last `kept` rows that were written.
+  [[nodiscard]] float* row(int channel, int y) { return &values_[offset(channel, y)]; }
+  [[nodiscard]] const float* row(int channel, int y) const { return &values_[offset(channel, y)]; }
+
+ private:
+  [[nodiscard]] std::size_t offset(int channel, int y) const {
+    return static_cast<std::size_t>((y % kept) * 3 + channel) * static_cast<std::size_t>(width_);
+  }
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<float> values_;
 };
 
 class Developer {
  public:
-  explicit Developer();
-  /// `rgb` becomes width * height * 3 bytes.
-  void develop(const LightPlanes& light, const ImageEffects& effects, std::uint64_t noise_seed,
-               std::vector<std::uint8_t>& rgb);
+  Developer();
+  static constexpr int rows_below = 2;  // that the blur of a row needs
+  /// Starts a frame.
+  void begin(const LightRows& light, const ImageEffects& effects, std::uint64_t noise_seed);
+  /// One row as RGB24; needs rows y - 2 to y + 2 of the light.
+  void develop(const LightRows& light, int y, std::uint8_t* rgb);
 
  private:
-  static constexpr int table_size = 8192;               // index of linear light 1
-  std::array<std::int16_t, table_size + 1> gamma_{};    // in 1/16 of an 8-bit step
+  void develop_row(const LightRows& light, int channel, int y, std::uint8_t* out);
+
   NoiseTile noise_;
-  std::vector<float> blurred_;
+  std::array<float, 3> kernel_{};  // of the blur: middle, next, next but one
+  float noise_scale_ = 0.0F;
+  std::array<int, 3> shift_x_{}, shift_y_{};  // of the noise, for each channel
+  std::vector<float> vertical_, both_;        // rows, with a margin
+  std::vector<float> grain_;
+  std::vector<std::uint8_t> row_;             // three planes
 };
 
 }  // namespace touchline::sim

@@ -171,9 +171,11 @@ Rgb Ground::carpet(float x, float y, const Footprint& pixel, float extent) const
   // The grain fades where a pixel spans several texels: the sum of many is their mean.
   const float fine_strength = fine_texel / (fine_texel + extent);
   const float middle_strength = middle_texel / (middle_texel + extent);
-  const float fine = extent < 0.03F ? fine_.sample(x / fine_texel, y / fine_texel) * fine_strength : 0.0F;
-  const float middle = middle_.sample(x / middle_texel, y / middle_texel) * middle_strength;
-  const float coarse = coarse_.nearest(x / coarse_texel * 2.0F, y / coarse_texel * 2.0F);
+  const float fine = extent < 0.03F ? fine_.sample(x * (1.0F / fine_texel), y * (1.0F / fine_texel)) * fine_strength : 0.0F;
+  const float middle = (extent < 0.5F * middle_texel ? middle_.sample(x * (1.0F / middle_texel), y * (1.0F / middle_texel))
+                                                     : middle_.nearest(x * (1.0F / middle_texel), y * (1.0F / middle_texel))) *
+                       middle_strength;
+  const float coarse = coarse_.nearest(x * (2.0F / coarse_texel), y * (2.0F / coarse_texel));
   float shade = 1.0F + options_.grain * (1.6F * fine + 0.7F * middle + 0.35F * coarse);
   const float strip = y / seam_;
   const float seam = (strip - static_cast<float>(floor_int(strip)) - 0.37F) * seam_;
@@ -206,9 +208,10 @@ Rgb Ground::color(float x, float y, const Footprint& pixel) const {
   const float half_x = math::abs(pixel.ux) + math::abs(pixel.vx) + 1e-5F;
   const float half_y = math::abs(pixel.uy) + math::abs(pixel.vy) + 1e-5F;
   const float extent = math::max(half_x, half_y);
+  const float past = math::max(math::abs(x) - half_length_, math::abs(y) - half_width_);
+  if (past < -extent) return carpet(x, y, pixel, extent);
+  if (past > extent) return floor(x, y, pixel, extent);
   const float on_carpet = covered(x, half_x, -half_length_, half_length_) * covered(y, half_y, -half_width_, half_width_);
-  if (on_carpet >= 1.0F) return carpet(x, y, pixel, extent);
-  if (on_carpet <= 0.0F) return floor(x, y, pixel, extent);
   return mix(floor(x, y, pixel, extent), carpet(x, y, pixel, extent), on_carpet);
 }
 

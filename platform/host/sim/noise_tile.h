@@ -26,8 +26,8 @@ class NoiseTile {
     const int iy = static_cast<int>(py);
     const float fx = px - static_cast<float>(ix);
     const float fy = py - static_cast<float>(iy);
-    const std::int8_t* row0 = &texels_[index(0, iy)];
-    const std::int8_t* row1 = &texels_[index(0, iy + 1)];
+    const std::int8_t* row0 = row(iy);
+    const std::int8_t* row1 = row(iy + 1);
     const int x0 = ix & (size - 1);
     const int x1 = (ix + 1) & (size - 1);
     const float top = static_cast<float>(row0[x0]) * (1.0F - fx) + static_cast<float>(row0[x1]) * fx;
@@ -39,6 +39,8 @@ class NoiseTile {
     return static_cast<float>(texels_[index(static_cast<int>(x + 8192.0F), static_cast<int>(y + 8192.0F))]) *
            (1.0F / unit);
   }
+  /// The 256 texels of a row that repeats.
+  [[nodiscard]] const std::int8_t* row(int y) const { return &texels_[index(0, y)]; }
   [[nodiscard]] std::int8_t texel(int x, int y) const { return texels_[index(x, y)]; }
 
  private:

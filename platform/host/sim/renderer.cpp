@@ -83,9 +83,12 @@ Footprint SimRenderer::footprint(const Row& row, const Row& below, int x) const 
 
 Rgb SimRenderer::shade(const Scene& scene, int tile, const Vec3& direction, const Footprint& pixel,
                        Identity& identity) const {
-  Room::Hit room;
-  scene.room().hit(origin_, direction, room);
   const float ground = direction.z < -1e-4F ? -origin_.z / direction.z : nowhere;
+  const float ground_x = origin_.x + direction.x * ground;
+  const float ground_y = origin_.y + direction.y * ground;
+  Room::Hit room;
+  room.t = nowhere;
+  if (!scene.room().contains(ground_x, ground_y)) scene.room().hit(origin_, direction, room);
   float nearest = math::min(ground, room.t);
   SolidHit best;
   SolidHit hit;
@@ -104,9 +107,7 @@ Rgb SimRenderer::shade(const Scene& scene, int tile, const Vec3& direction, cons
   if (seen != nullptr) return scene.lit_solid(surface_color(seen->material, best.s, best.z), best.normal);
   if (ground <= room.t) {
     identity = 0;
-    const float x = origin_.x + direction.x * ground;
-    const float y = origin_.y + direction.y * ground;
-    return scene.lit_ground(scene.ground().color(x, y, pixel), x, y);
+    return scene.lit_ground(scene.ground().color(ground_x, ground_y, pixel), ground_x, ground_y);
   }
   identity = static_cast<Identity>(1 + room.face);
   scene.room().paint(origin_, direction, room);
@@ -117,19 +118,16 @@ void SimRenderer::store(int x, int y, const Rgb& color, float cosine) {
   const float rim = math::clamp((cosine - map_.min_cosine()) * rim_softness, 0.0F, 1.0F);
   const float lost = effects_.vignetting * (1.0F - cosine) / (1.0F - map_.min_cosine());
   const float share = rim * (1.0F - lost);
-  const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width()) + static_cast<std::size_t>(x);
-  light_.plane[0][i] = color.r * share;
-  light_.plane[1][i] = color.g * share;
-  light_.plane[2][i] = color.b * share;
+  light_.row(0, y)[x] = color.r * share;
+  light_.row(1, y)[x] = color.g * share;
+  light_.row(2, y)[x] = color.b * share;
 }
 
 void SimRenderer::shade_row(const Scene& scene, int y, const Row& row, const Row& below) {
   const int first = map_.first(y);
   const int last = map_.last(y);
   const std::size_t base = static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width());
-  for (auto& plane : light_.plane) {
-    std::fill_n(plane.begin() + static_cast<std::ptrdiff_t>(base), map_.width(), 0.0F);
-  }
+  for (int c = 0; c < 3; ++c) std::fill_n(light_.row(c, y), map_.width(), 0.0F);
   std::fill_n(identity_.begin() + static_cast<std::ptrdiff_t>(base), map_.width(), Identity{7});
   // At the rim a neighbour may see nothing; the nearest pixel with both neighbours has nearly the same footprint.
   const int other = y + 1 < map_.height() ? y + 1 : y - 1;
@@ -155,15 +153,23 @@ void SimRenderer::render(const Scene& scene, const Pose2& robot, const CameraPos
   const FieldPoint at = to_field(robot, GroundPoint{camera.x, camera.y});
   origin_ = {at.x, at.y, camera.height};
   find_candidates(scene);
+  const int height = map_.height();
+  const std::size_t stride = static_cast<std::size_t>(map_.width()) * 3U;
+  rgb.resize(stride * static_cast<std::size_t>(height));
+  developer_.begin(light_, effects, noise_seed);
   trace_row(0, rows_[0]);
-  for (int y = 0; y < map_.height(); ++y) {
+  // Row by row through all three steps, so that a row is still in the cache: edges wait for the row below, the blur for
+  // two finished rows.
+  constexpr int behind = 1 + Developer::rows_below;
+  for (int y = 0; y < height + behind; ++y) {
     Row& row = rows_[y & 1];
     Row& below = rows_[(y + 1) & 1];
-    if (y + 1 < map_.height()) trace_row(y + 1, below);
-    shade_row(scene, y, row, below);
+    if (y + 1 < height) trace_row(y + 1, below);
+    if (y < height) shade_row(scene, y, row, below);
+    if (effects.supersample_edges && y >= 2 && y < height) supersample_row(scene, y - 1);
+    const int ready = y - behind;
+    if (ready >= 0) developer_.develop(light_, ready, &rgb[stride * static_cast<std::size_t>(ready)]);
   }
-  if (effects.supersample_edges) supersample(scene);
-  developer_.develop(light_, effects, noise_seed, rgb);
 }
 
 bool SimRenderer::differs(int x, int y) const {
@@ -198,13 +204,11 @@ Rgb SimRenderer::supersampled(const Scene& scene, int x, int y) const {
   return sum * 0.25F;
 }
 
-void SimRenderer::supersample(const Scene& scene) {
-  for (int y = 1; y + 1 < map_.height(); ++y) {
-    const int first = std::max({map_.first(y - 1), map_.first(y) + 1, map_.first(y + 1), 1});
-    const int last = std::min({map_.last(y - 1), map_.last(y) - 1, map_.last(y + 1), map_.width() - 1});
-    for (int x = first; x < last; ++x) {
-      if (differs(x, y)) store(x, y, supersampled(scene, x, y), map_.z(y)[x]);
-    }
+void SimRenderer::supersample_row(const Scene& scene, int y) {
+  const int first = std::max({map_.first(y - 1), map_.first(y) + 1, map_.first(y + 1), 1});
+  const int last = std::min({map_.last(y - 1), map_.last(y) - 1, map_.last(y + 1), map_.width() - 1});
+  for (int x = first; x < last; ++x) {
+    if (differs(x, y)) store(x, y, supersampled(scene, x, y), map_.z(y)[x]);
   }
 }
 

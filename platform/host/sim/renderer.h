@@ -37,7 +37,7 @@ class SimRenderer {
   /// The colour in a direction, and what is seen there.
   [[nodiscard]] Rgb shade(const Scene& scene, int tile, const Vec3& direction, const Footprint& pixel,
                           Identity& identity) const;
-  void supersample(const Scene& scene);
+  void supersample_row(const Scene& scene, int y);
   [[nodiscard]] Rgb supersampled(const Scene& scene, int x, int y) const;
   [[nodiscard]] bool differs(int x, int y) const;
   void store(int x, int y, const Rgb& color, float cosine);
@@ -47,7 +47,7 @@ class SimRenderer {
   ImageEffects effects_;
   Mat3 rotation_;  // field_from_camera
   Vec3 origin_;    // camera in the field frame
-  LightPlanes light_;
+  LightRows light_;
   std::vector<Identity> identity_;
   std::vector<std::uint32_t> tile_start_;
   std::vector<std::uint16_t> tile_solids_;

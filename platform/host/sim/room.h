@@ -39,6 +39,7 @@ class Room {
     Rgb color;
     bool emits = false;
   };
+  [[nodiscard]] bool contains(float x, float y) const { return x < at_[0] && x > at_[1] && y < at_[2] && y > at_[3]; }
   /// Distance and face alone.
   void hit(const Vec3& origin, const Vec3& direction, Hit& out) const;
   void paint(const Vec3& origin, const Vec3& direction, Hit& io) const;

@@ -32,7 +32,7 @@ struct Picture {
   /// Linear light of the red channel: paint is bright, carpet is dark.
   [[nodiscard]] double red(int x, int y) const {
     const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x)) * 3U;
-    return std::pow(rgb[i] / 255.0, 2.2);
+    return rgb[i] * rgb[i] / (255.0 * 255.0);
   }
 };
 
