@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the fixture sequences through the whole chain, both models, and writes down a hash of every product and the pose of
-// every frame. The text is under version control: a change of behaviour shows as a diff of it.
+// Runs the fixture sequences through the whole chain, both models, and writes down a hash of every product and the pose
+// of every frame. The text is under version control: a change of behaviour shows as a diff of it.
 //   golden_outputs --check EXPECTED FIXTURES    status 1 and the first lines that differ, where one differs
 //   golden_outputs --write EXPECTED FIXTURES    writes EXPECTED/NAME.txt for each data set FIXTURES/NAME
 #include <algorithm>

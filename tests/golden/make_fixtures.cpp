@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the simulated fixtures once more: data sets small enough for version control, in the format that everybody can write.
-// Run by hand where the fixtures themselves are to change; the golden outputs read the files, not the simulator.
+// Draws the simulated fixtures once more: data sets small enough for version control, in the format that everybody can
+// write. Run by hand where the fixtures themselves are to change; the golden outputs read the files, not the simulator.
 //   make_fixtures FIXTURES
 #include <cstdio>
 #include <exception>
@@ -43,9 +43,9 @@ class DataSetWriter {
     const char* model = camera.lens.model == LensModel::equisolid ? "equisolid" : "equidistant";
     std::ofstream toml(folder / "dataset.toml");
     toml << format("name = \"%s\"\nprotocol = \"%s\"\nfield = \"%s\"\n\n", folder.filename().c_str(), protocol, field);
-    toml << format("[camera]\nwidth = %d\nheight = %d\nmodel = \"%s\"\nfocal_px = %.6f\ncx = %.3f\ncy = %.3f\n", camera.width,
-                   camera.height, model, static_cast<double>(camera.lens.focal_px), static_cast<double>(camera.lens.cx),
-                   static_cast<double>(camera.lens.cy));
+    toml << format("[camera]\nwidth = %d\nheight = %d\nmodel = \"%s\"\nfocal_px = %.6f\ncx = %.3f\ncy = %.3f\n",
+                   camera.width, camera.height, model, static_cast<double>(camera.lens.focal_px),
+                   static_cast<double>(camera.lens.cx), static_cast<double>(camera.lens.cy));
     toml << format("max_theta_deg = %.4f\n\n", deg(camera.lens.max_theta));
     toml << "[mount]\nheight_m = 0.58\npitch_deg = 30.0\n\n[imu]\ngoal_yaw_deg = 0.0\n";
     frames_.open(folder / "frames.jsonl");
@@ -63,8 +63,8 @@ class DataSetWriter {
                       static_cast<double>(frame.odometry.x), static_cast<double>(frame.odometry.y),
                       deg(frame.odometry.theta));
     if (frame.has_yaw) frames_ << format("\"imu_yaw_deg\": %.3f, ", deg(wrap_angle(frame.yaw)));
-    frames_ << format("\"truth\": {\"x_m\": %.4f, \"y_m\": %.4f, \"theta_deg\": %.3f}}\n", static_cast<double>(frame.truth.x),
-                      static_cast<double>(frame.truth.y), deg(frame.truth.theta));
+    frames_ << format("\"truth\": {\"x_m\": %.4f, \"y_m\": %.4f, \"theta_deg\": %.3f}}\n",
+                      static_cast<double>(frame.truth.x), static_cast<double>(frame.truth.y), deg(frame.truth.theta));
   }
 
  private:

@@ -168,9 +168,10 @@ std::uint64_t hash_estimate(const PoseEstimate& estimate) {
   hasher.add(estimate.valid);
   if (!estimate.valid) return hasher.value();
   const PoseCovariance& c = estimate.covariance;
-  hasher.add_all(estimate.pose, c.xx, c.xy, c.yy, c.xt, c.yt, c.tt, estimate.confidence, estimate.has_mirror);
+  hasher.add_all(estimate.pose, c.xx, c.xy, c.yy, c.xt, c.yt, c.tt, estimate.confidence, estimate.settled,
+                 estimate.has_mirror);
   if (estimate.has_mirror) hasher.add_all(estimate.mirror, estimate.mirror_confidence);
-  hasher.add_all(estimate.pitch_error, estimate.roll_error, estimate.yaw_drift);
+  hasher.add_all(estimate.explained, estimate.pitch_error, estimate.roll_error, estimate.yaw_drift);
   return hasher.value();
 }
 

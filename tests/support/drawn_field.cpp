@@ -39,8 +39,7 @@ void draw_field(const Field& field, const GroundProjection& projection, const Po
       GroundPoint ground;
       if (projection.ground({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F}, ground)) {
         const FieldPoint p = to_field(robot, ground);
-        const bool carpet =
-            math::abs(p.x) < field.half_carpet_length() && math::abs(p.y) < field.half_carpet_width();
+        const bool carpet = math::abs(p.x) < field.half_carpet_length() && math::abs(p.y) < field.half_carpet_width();
         const int shade = grain(x, y);
         if (carpet && on_line(field, p)) {
           for (int& c : color) c = 225 + shade;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plain picture of a field for tests of the whole chain that need no host tools: green carpet with a grain, white lines,
-// grey surroundings. No light, no blur: a test of order and memory, not of accuracy.
+// A plain picture of a field for tests of the whole chain that need no host tools: green carpet with a grain, white
+// lines, grey surroundings. No light, no blur: a test of order and memory, not of accuracy.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Comes before Eigen in every source of touchline_loc_checked and of the tests that link it (by -include): Eigen then checks
-// on each allocation whether one is allowed, and ends the program where not, in Release builds too.
+// Comes before Eigen in every source of touchline_loc_checked and of the tests that link it (by -include): Eigen then
+// checks on each allocation whether one is allowed, and ends the program where not, in Release builds too.
 #pragma once
 
 #include <cstdio>

@@ -36,8 +36,9 @@ foreach(room platform/core vision loc)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline/${parent}
     FILES_MATCHING PATTERN "*.h")
 endforeach()
+install(FILES ${PROJECT_SOURCE_DIR}/loc/touchline.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/hal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline
   FILES_MATCHING PATTERN "*.h" PATTERN "linux" EXCLUDE)
-if(TARGET touchline_cli)
-  install(TARGETS touchline_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET touchline)
+  install(TARGETS touchline RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// A user's first program, built by the install test.
+// A user's first program: one grey frame goes from the camera to the localizer. Built against an install by the tests.
+#include <touchline.h>
+
 #include <cstdio>
 
-#include "platform/core/static_vector.h"
-#include "platform/core/status.h"
+static touchline::PipelineStorage<> storage;  // all memory of the vision chain
+static touchline::Localizer localizer;        // all memory of localization
+static std::uint8_t pixels[752 * 480 * 3];    // the camera's frame
 
 int main() {
-  touchline::StaticVector<int, 4> numbers;
-  numbers.push_back(1);
-  std::printf("touchline says: %s, %zu\n", touchline::to_string(touchline::Status::ok), numbers.size());
+  using namespace touchline;
+  Lens lens;
+  Field field;
+  Pipeline pipeline(storage.memory());
+  const LensParameters fisheye{.focal_px = 232.9F, .cx = 376.0F, .cy = 240.0F, .max_theta = radians(92.5F)};
+  if (Lens::create(fisheye, lens) != Status::ok || Field::create(*field_preset("small-2026"), field) != Status::ok ||
+      pipeline.configure(VisionConfig{}, lens) != Status::ok ||
+      localizer.configure(LocalizerConfig{}, field) != Status::ok) {
+    return 1;
+  }
+  localizer.reset(Prior{}, 1);
+
+  VisionResult seen;
+  PoseEstimate estimate;
+  const FrameView frame{PixelFormat::rgb24, pixels, 752, 480, 752 * 3};
+  const CameraPose camera{.height = 0.58F, .pitch = radians(30.0F)};
+  Status status = pipeline.process({frame, 0.0, camera, Pose2{}}, seen);
+  if (status == Status::ok) status = localizer.update(LocalizerInput{}, seen, estimate);
+  std::printf("%s, %d line pixels, %s\n", to_string(status), seen.counts.line_pixels,
+              estimate.valid ? "a pose" : "no pose yet");
 }
