@@ -16,8 +16,8 @@ struct PoseCandidate {
   CandidateSource source = CandidateSource::grid;
 };
 
-inline constexpr std::size_t max_candidates = 32;  // several times the poses that a field's symmetries leave open
-using CandidateList = StaticVector<PoseCandidate, max_candidates>;
+inline constexpr std::size_t max_pose_candidates = 32;  // several times the poses that a field's symmetries leave open
+using CandidateList = StaticVector<PoseCandidate, max_pose_candidates>;
 
 /// The best candidates, best first, no two within 0.35 m and 20 degrees of each other. Empty when nothing is seen.
 void find_candidates(const Field& field, const DistanceField& map, const Observation& observation, Landmarks landmarks,
