@@ -67,7 +67,7 @@ class PipelineStorage {
 };
 
 // The budget at 320x240.
-static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 1000 * 1024);
-static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 544 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 1004 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 556 * 1024);
 
 }  // namespace touchline
