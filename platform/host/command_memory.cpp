@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// `touchline memory`: the sizes of the structs that hold all state. Nothing else is allocated after start-up.
+#include <cstdio>
+#include <ostream>
+
+#include "loc/localizer.h"
+#include "platform/host/command_line.h"
+#include "vision/pipeline.h"
+#include "vision/pipeline_storage.h"
+
+namespace touchline::host {
+namespace {
+
+void row(std::ostream& out, const char* name, std::size_t bytes) {
+  char text[120];
+  std::snprintf(text, sizeof text, "  %-44s %9zu bytes %8.1f KiB\n", name, bytes, static_cast<double>(bytes) / 1024.0);
+  out << text;
+}
+
+template <int W, int H, int Depth>
+void chain_rows(std::ostream& out, const char* title) {
+  constexpr std::size_t vision = sizeof(PipelineStorage<W, H, Depth>) + sizeof(Pipeline);
+  out << title << "\n";
+  row(out, "vision: FIFO and mean", sizeof(Yuv420Image<W, H>) * static_cast<std::size_t>(Depth > 1 ? Depth + 1 : 1));
+  row(out, "vision: masks", sizeof(BitImage<W, H>) * mask_count);
+  row(out, "vision: skeleton index, digestion, node graph", sizeof(GraphStorage<W, H>));
+  row(out, "vision: features", sizeof(Features));
+  row(out, "vision, whole state", vision);
+  row(out, "localization: particles, two sets", 2 * sizeof(ParticleStorage<max_particles>));
+  row(out, "localization: distances to the field's lines", sizeof(DistanceField));
+  row(out, "localization: feature manager", sizeof(FeatureManager));
+  row(out, "localization, whole state", sizeof(Localizer));
+  row(out, "vision and localization", vision + sizeof(Localizer));
+}
+
+}  // namespace
+
+int run_memory(std::ostream& out) {
+  out << "All memory of the chain; nothing is allocated after start-up.\n";
+  chain_rows<320, 240, 4>(out, "320x240, FIFO of 4 frames (default)");
+  chain_rows<320, 240, 1>(out, "320x240, FIFO of 1 frame");
+  chain_rows<640, 480, 4>(out, "640x480, FIFO of 4 frames");
+  return exit_ok;
+}
+
+}  // namespace touchline::host
