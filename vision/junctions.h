@@ -34,11 +34,11 @@ struct JunctionCandidate {
   GroundPoint ground;
   StaticVector<JunctionBranch, 8> branches;  // more than four are no junction; eight show that
 };
-inline constexpr std::size_t max_candidates = 96;  // twice what a frame of clutter shows
+inline constexpr std::size_t max_junction_candidates = 96;  // twice what a frame of clutter shows
 
 /// Working memory.
 struct JunctionWork {
-  StaticVector<JunctionCandidate, max_candidates> candidates;
+  StaticVector<JunctionCandidate, max_junction_candidates> candidates;
 };
 
 /// Working memory of all stages from the graph to the junctions.
