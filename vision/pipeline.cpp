@@ -104,6 +104,8 @@ Status Pipeline::process(const FrameInput& input, VisionResult& result, StageObs
   VisionResult next;
   next.time_s = input.time_s;
   next.projection = GroundProjection(lens_, input.camera);
+  next.frame_width = config_.frame_width;
+  next.frame_height = config_.frame_height;
   next.work_width = views_.width;
   next.work_height = views_.height;
   {
