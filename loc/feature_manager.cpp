@@ -74,12 +74,14 @@ void FeatureManager::update(const Pose2& odometry, const VisionResult& vision, L
   if (landmarks != Landmarks::goalposts) {
     for (const Junction& j : vision.features->junctions) {
       const auto type = static_cast<FeatureType>(j.type);
-      sight(type, j.ground, base_likelihood(type, config) * axis_share(vision, j.pixel, config), field, pose, config);
+      const float base = base_likelihood(type, config) * j.confidence * axis_share(vision, j.pixel, config);
+      sight(type, j.ground, base, field, pose, config);
     }
   }
   if (landmarks != Landmarks::lines) {
     for (const PostObservation& p : vision.features->posts) {
-      sight(FeatureType::post, p.ground, config.base_post * axis_share(vision, p.pixel, config), field, pose, config);
+      const float base = config.base_post * p.confidence * axis_share(vision, p.pixel, config);
+      sight(FeatureType::post, p.ground, base, field, pose, config);
     }
   }
 }

@@ -16,7 +16,8 @@ inline constexpr int feature_types = 4;
 struct TrackedFeature {
   GroundPoint ground;       // robot's frame, now
   float confidence = 0.0F;  // c of eq. (1): +1 a sighting, times exp(-1 / gamma) a frame; saturates at about gamma
-  float base = 0.0F;        // likelihood of the type, times the share for its distance from the polar axis
+  float base = 0.0F;        // likelihood of the type, times the share for its distance from the polar axis, times
+                            // what vision itself thinks of this sighting
 };
 
 /// Features of one type that are remembered: the field's own (at most 16 of a type) and as many bogus ones.

@@ -51,4 +51,31 @@ void resample_low_variance(ParticleView particles, int keep, ParticleView scratc
   }
 }
 
+namespace {
+
+float extent(const float* values, int count) {
+  float low = values[0];
+  float high = values[0];
+  for (int i = 1; i < count; ++i) {
+    low = math::min(low, values[i]);
+    high = math::max(high, values[i]);
+  }
+  return high - low;
+}
+
+}  // namespace
+
+void roughen(ParticleView particles, float k, Rng& rng) {
+  if (particles.count == 0) return;
+  const float share = k * math::exp(-math::log(static_cast<float>(particles.count)) / 3.0F);
+  const float sx = share * extent(particles.x, particles.count);
+  const float sy = share * extent(particles.y, particles.count);
+  const float st = share * math::min(extent(particles.theta, particles.count), math::pi);
+  for (int i = 0; i < particles.count; ++i) {
+    particles.x[i] += sx * rng.gaussian();
+    particles.y[i] += sy * rng.gaussian();
+    particles.theta[i] = wrap_angle(particles.theta[i] + st * rng.gaussian());
+  }
+}
+
 }  // namespace touchline

@@ -27,6 +27,7 @@ struct Fixture {
     Junction j;
     j.type = type;
     j.ground = at;
+    j.confidence = 1.0F;
     REQUIRE(vision.projection.pixel(at, j.pixel));
     features->junctions.push_back(j);
   }

@@ -27,6 +27,7 @@ struct Fixture {
     Junction j;
     j.type = JunctionType::x;
     j.ground = {1.0F, 0.0F};
+    j.confidence = 1.0F;
     REQUIRE(vision.projection.pixel(j.ground, j.pixel));
     features->junctions.push_back(j);
     manager.update({}, vision, Landmarks::lines, field, nullptr, config);

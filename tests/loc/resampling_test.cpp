@@ -53,3 +53,17 @@ TEST_CASE("one particle with all the weight takes every place kept, the rest sta
   for (int i = 0; i < 60; ++i) CHECK(f.p.x[i] == 42.0F);
   CHECK(f.p.x[60] == 60.0F);
 }
+
+TEST_CASE("roughening spreads copies by a share of the cloud's extent, and a cloud in one point stays there") {
+  Fixture f;
+  for (int i = 0; i < 100; ++i) f.p.set_pose(i, {i < 50 ? 0.0F : 10.0F, 1.0F, 0.0F});
+  Rng rng(10);
+  roughen(f.p, 0.2F, rng);
+  double squares = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const double e = static_cast<double>(f.p.x[i] - (i < 50 ? 0.0F : 10.0F));
+    squares += e * e;
+    CHECK(f.p.y[i] == 1.0F);
+  }
+  CHECK(std::sqrt(squares / 100) == doctest::Approx(0.2 * 10.0 / std::cbrt(100.0)).epsilon(0.25));
+}
