@@ -12,9 +12,12 @@ class Clock {
 
   /// Never smaller than what an earlier call returned. Cannot fail.
   [[nodiscard]] MonotonicNs now() { return do_now(); }
+  /// Returns once `time` has come, at once when it has passed; a signal may end it early.
+  void wait_until(MonotonicNs time) { do_wait_until(time); }
 
  private:
   virtual MonotonicNs do_now() = 0;
+  virtual void do_wait_until(MonotonicNs time) = 0;
 };
 
 }  // namespace touchline

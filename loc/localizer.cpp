@@ -100,9 +100,12 @@ Pose2 Localizer::random_pose(const YawEvidence& yaw) {
 }
 
 void Localizer::predict(const LocalizerInput& input) {
-  move_particles(particles(), input.odometry, config_.motion, rng_);
+  MotionNoise noise = config_.motion;
+  noise.xy_floor += input.unknown_xy;
+  noise.theta_floor += input.unknown_theta;
+  move_particles(particles(), input.odometry, noise, rng_);
   if (!last_.valid) return;
-  last_.covariance = grown(last_.covariance, step_sigma(input.odometry, config_.motion), last_.pose.theta);
+  last_.covariance = grown(last_.covariance, step_sigma(input.odometry, noise), last_.pose.theta);
   last_.pose = compose(last_.pose, input.odometry);
   const float seconds = static_cast<float>(input.time_s - last_time_s_);
   if (seconds > 0.0F && seconds < 10.0F) yaw_.predict(seconds, config_.yaw_drift_rate);
@@ -112,7 +115,7 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
                          StageObserver* observer) {
   if (!configured_ || frames_ < 0) return Status::not_ready;
   if (!finite(input.odometry.x) || !finite(input.odometry.y) || !finite(input.odometry.theta) ||
-      (input.has_yaw && !finite(input.yaw)) || input.time_s - input.time_s != 0.0) {
+      !finite(input.unknown_xy) || !finite(input.unknown_theta) || (input.has_yaw && !finite(input.yaw)) || input.time_s - input.time_s != 0.0) {
     return Status::invalid_argument;
   }
   if (observer != nullptr) observer->begin(Stage::localize);

@@ -27,6 +27,8 @@ namespace touchline {
 struct LocalizerInput {
   double time_s = 0.0;
   Pose2 odometry;        // robot's step since the update before, as the gait believes it
+  float unknown_xy = 0.0F;     // metres, 1 sigma: motion that no odometry reports, beyond the noise of the step
+  float unknown_theta = 0.0F;  // radians, likewise
   bool has_yaw = false;
   float yaw = 0.0F;      // IMU yaw minus the stored goal yaw: theta up to noise and drift, radians
   bool moved_by_hand = false;  // fallen or lifted since the update before: the odometry is void, the pose may be anywhere

@@ -15,6 +15,12 @@ class MonotonicClock final : public Clock {
     clock_gettime(CLOCK_MONOTONIC, &now);  // cannot fail for this clock
     return MonotonicNs{now.tv_sec} * one_second + now.tv_nsec;
   }
+  void do_wait_until(MonotonicNs time) override {
+    timespec until{};
+    until.tv_sec = time / one_second;
+    until.tv_nsec = time % one_second;
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+  }
 };
 
 }  // namespace touchline

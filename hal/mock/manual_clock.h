@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clock that stands still until a test moves it.
+// A clock that stands still until a test moves it; waiting moves it at once.
 #pragma once
 
 #include <cassert>
@@ -21,6 +21,7 @@ class ManualClock final : public Clock {
 
  private:
   MonotonicNs do_now() override { return now_; }
+  void do_wait_until(MonotonicNs time) override { advance_to(time); }
 
   MonotonicNs now_;
 };

@@ -41,6 +41,8 @@ rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+"
 rule loc 'platform/core/|vision/|loc/' "$std_allowed|Eigen/[A-Za-z]+"
 # hal: interfaces and codecs are core; backends may use the operating system.
 rule hal 'platform/core/|hal/' "$std_allowed" '^hal/(linux|mock|replay|firmware)/'
+# The robot's program joins them, on interfaces alone.
+rule platform/robot 'platform/core/|vision/|loc/|hal/[a-z_]+\.h|platform/robot/' "$std_allowed"
 # What goes into a controller's firmware is C99 and stands alone.
 rule hal/firmware '$^' 'stdint\.h'
 

@@ -22,6 +22,7 @@ class SimClock final : public Clock {
 
  private:
   MonotonicNs do_now() override { return now_; }
+  void do_wait_until(MonotonicNs time) override { advance_to(time); }
   MonotonicNs now_ = one_second;  // simulated time 0
 };
 
