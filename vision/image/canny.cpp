@@ -96,28 +96,38 @@ void gradient_row(const RollingRows& rows, int y, int width, int height, Columns
   }
 }
 
-/// True when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
+/// Gradients of a row, and magnitudes of it and its neighbours.
+struct GradientRows {
+  const std::int16_t* gx = nullptr;
+  const std::int16_t* gy = nullptr;
+  const std::uint16_t* above = nullptr;
+  const std::uint16_t* here = nullptr;
+  const std::uint16_t* below = nullptr;
+};
+
+/// 1 when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
 /// gradient direction the first stays.
-bool is_maximum(const RollingRows& rows, int x, int y) {
-  const int gx = rows.gx(y)[x];
-  const int gy = rows.gy(y)[x];
+BitWord is_maximum(const GradientRows& neighbours, int x) {
+  const int gx = neighbours.gx[x];
+  const int gy = neighbours.gy[x];
   const int ax = gx < 0 ? -gx : gx;
   const int ay = gy < 0 ? -gy : gy;
   const int sx = gx < 0 ? -1 : 1;
-  const int sy = gy < 0 ? -1 : 1;
-  const std::uint16_t* ahead_row = rows.magnitude(y + sy);
-  const std::uint16_t* back_row = rows.magnitude(y - sy);
-  const std::uint16_t* row = rows.magnitude(y);
+  const std::uint16_t* ahead_row = gy < 0 ? neighbours.above : neighbours.below;
+  const std::uint16_t* back_row = gy < 0 ? neighbours.below : neighbours.above;
+  const std::uint16_t* row = neighbours.here;
   const int corner_ahead = ahead_row[x + sx];
   const int corner_back = back_row[x - sx];
   const int side_ahead = ax >= ay ? row[x + sx] : ahead_row[x];
   const int side_back = ax >= ay ? row[x - sx] : back_row[x];
   const int most = std::max(ax, ay);
   const int least = std::min(ax, ay);
-  // The gradient's line meets the neighbours' ring at least / most of the way from the side to the corner.
+  // The gradient's line meets the neighbours' ring at least / most of the way from the side to the corner. Without a
+  // branch: on noise no processor could predict one.
   const int here = row[x] * most;
-  return here > side_ahead * (most - least) + corner_ahead * least &&
-         here >= side_back * (most - least) + corner_back * least;
+  const int ahead = side_ahead * (most - least) + corner_ahead * least;
+  const int back = side_back * (most - least) + corner_back * least;
+  return (here > ahead ? BitWord{1} : BitWord{0}) & (here >= back ? BitWord{1} : BitWord{0});
 }
 
 /// Bits of 64 columns from `x0` whose magnitude is at least `threshold`.
@@ -132,6 +142,7 @@ BitWord at_least(const std::uint16_t* magnitude, int x0, int end, int threshold)
 void find_maxima(const RollingRows& rows, int y, Columns columns, ConstBitView roi, const CannyThresholds& thresholds,
                  BitView weak, BitView strong) {
   const std::uint16_t* magnitude = rows.magnitude(y);
+  const GradientRows gradients = {rows.gx(y), rows.gy(y), rows.magnitude(y - 1), magnitude, rows.magnitude(y + 1)};
   for (int i = columns.first / bits_per_word; i * bits_per_word < columns.end; ++i) {
     if (roi.row(y)[i] == 0) continue;
     const int x0 = i * bits_per_word;
@@ -140,7 +151,7 @@ void find_maxima(const RollingRows& rows, int y, Columns columns, ConstBitView r
     if (candidates == 0) continue;
     for (; candidates != 0; candidates &= candidates - 1) {
       const int bit = std::countr_zero(candidates);
-      if (is_maximum(rows, x0 + bit, y)) maxima |= BitWord{1} << bit;
+      maxima |= is_maximum(gradients, x0 + bit) << bit;
     }
     weak.row(y)[i] = maxima;
     strong.row(y)[i] = maxima & at_least(magnitude, x0, columns.end, thresholds.high * blur_scale);

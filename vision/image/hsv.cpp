@@ -15,7 +15,8 @@ namespace {
 // r, g, b minus luma, in 1/256: 1.402 Cr, -0.344 Cb - 0.714 Cr, 1.772 Cb.
 constexpr std::int32_t red_cr = 359, green_cb = -88, green_cr = -183, blue_cb = 454;
 constexpr int offset_bits = 8;
-constexpr int half_units_per_turn = 360;  // hue is 0..179 and rounded: its borders are at odd multiples of a half
+constexpr std::int32_t beyond_all = 1 << 16;  // beyond any luma: no bound
+constexpr int half_units_per_turn = 360;      // hue is 0..179 and rounded: its borders are at odd multiples of a half
 
 struct Offsets {
   std::int32_t red, green, blue;
@@ -121,47 +122,57 @@ LumaBand HsvFilter::luma_range(std::uint8_t cb, std::uint8_t cr) const {
 void HsvFilter::luma_ranges(const std::uint8_t* cb, const std::uint8_t* cr, int count, std::uint8_t* low,
                             std::uint8_t* high) const {
   const HsvFilter f = *this;  // a copy that no store through `low` can change: the loop stays in registers
+  const std::int32_t any = f.any_hue_ ? 1 : 0;
+  const std::int32_t wide = f.wide_ ? 1 : 0;
+  const std::int32_t value_floor = f.value_low_ == 0 ? -beyond_all : f.value_low_;
+  const std::int32_t value_ceiling = f.value_high_ == 255 ? beyond_all : f.value_high_;
+  const std::int32_t neutral_low = f.neutral_.low;
+  const std::int32_t neutral_high = f.neutral_.high;
+  // No branch in the loop, so that it vectorises.
   for (int i = 0; i < count; ++i) {
     const std::int32_t b = cb[i] - 128;
     const std::int32_t r = cr[i] - 128;
     const auto [red, green, blue] = offsets(b, r);
     const std::int32_t largest = std::max(std::max(red, green), blue);
     const std::int32_t chroma = largest - std::min(std::min(red, green), blue);
-    const bool past_first = f.from_.a * b + f.from_.b * r >= 0;
-    const bool before_last = f.to_.a * b + f.to_.b * r < 0;
-    const bool hue = f.any_hue_ | (f.wide_ ? (past_first | before_last) : (past_first & before_last));
+    const std::int32_t past_first = f.from_.a * b + f.from_.b * r >= 0 ? 1 : 0;
+    const std::int32_t before_last = f.to_.a * b + f.to_.b * r < 0 ? 1 : 0;
+    const std::int32_t hue = any | (past_first & before_last) | (wide & (past_first | before_last));
 
     const std::int32_t value_offset = (largest + 128) >> offset_bits;
-    std::int32_t from = std::max(0, f.value_low_ == 0 ? 0 : f.value_low_ - value_offset);
-    std::int32_t to = std::min(255, f.value_high_ == 255 ? 255 : f.value_high_ - value_offset);
-    if (f.divisor_low_ != 0) {
-      to = std::min(to, luma_quotient(510 * chroma - f.divisor_low_ * largest, f.divisor_low_, f.reciprocal_low_));
-    }
-    if (f.divisor_high_ != 0) {
-      from = std::max(from,
-                      luma_quotient(510 * chroma - f.divisor_high_ * largest, f.divisor_high_, f.reciprocal_high_) + 1);
-    }
-    const bool empty = !hue | (from > to);
-    low[i] = static_cast<std::uint8_t>(chroma == 0 ? f.neutral_.low : empty ? 255 : from);
-    high[i] = static_cast<std::uint8_t>(chroma == 0 ? f.neutral_.high : empty ? 0 : to);
+    const std::int32_t above_high =
+        luma_quotient(510 * chroma - f.divisor_high_ * largest, f.divisor_high_, f.reciprocal_high_) + 1;
+    const std::int32_t up_to_low =
+        luma_quotient(510 * chroma - f.divisor_low_ * largest, f.divisor_low_, f.reciprocal_low_);
+    const std::int32_t at_least = f.divisor_high_ == 0 ? 0 : above_high;
+    const std::int32_t at_most = f.divisor_low_ == 0 ? 255 : up_to_low;
+    const std::int32_t from = std::max(std::max(0, value_floor - value_offset), at_least);
+    const std::int32_t to = std::min(std::min(255, value_ceiling - value_offset), at_most);
+    const std::int32_t inside = hue & (from <= to ? 1 : 0);
+    const std::int32_t coloured_low = inside != 0 ? from : 255;
+    const std::int32_t coloured_high = inside != 0 ? to : 0;
+    low[i] = static_cast<std::uint8_t>(chroma == 0 ? neutral_low : coloured_low);
+    high[i] = static_cast<std::uint8_t>(chroma == 0 ? neutral_high : coloured_high);
   }
 }
 
 void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, int width, BitWord* out) {
   for (int first = 0; first < width; first += bits_per_word) {
-    std::array<std::uint8_t, bits_per_word> flags{};
     const int used = std::min(bits_per_word, width - first);
-    const std::uint8_t* luma = y + first;
-    const std::uint8_t* from = low + first / 2;
-    const std::uint8_t* to = high + first / 2;
-    for (int i = 0; i < used / 2; ++i) {
-      for (int x = 2 * i; x < 2 * i + 2; ++x) {
-        flags[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>((luma[x] >= from[i]) & (luma[x] <= to[i]));
-      }
+    // Whole words of fixed length: 32 chroma samples, each twice, and 64 lumas.
+    std::array<std::uint8_t, bits_per_word> from{};
+    std::array<std::uint8_t, bits_per_word> to{};
+    std::array<std::uint8_t, bits_per_word> flags{};
+    const int samples = (used + 1) / 2;
+    for (int i = 0; i < samples; ++i) {
+      const auto x = static_cast<std::size_t>(2 * i);
+      from[x] = from[x + 1] = low[first / 2 + i];
+      to[x] = to[x + 1] = high[first / 2 + i];
     }
-    if (used % 2 != 0) {
-      const int x = used - 1;
-      flags[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>((luma[x] >= from[x / 2]) & (luma[x] <= to[x / 2]));
+    for (int i = 0; i < used; ++i) {
+      const auto x = static_cast<std::size_t>(i);
+      const std::uint8_t luma = y[first + i];
+      flags[x] = static_cast<std::uint8_t>((luma >= from[x] ? 1 : 0) & (luma <= to[x] ? 1 : 0));
     }
     out[first / bits_per_word] = pack_flags(flags.data());
   }
