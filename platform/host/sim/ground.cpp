@@ -27,6 +27,14 @@ void Ground::build(const FieldDimensions& field, const GroundOptions& options, s
   seam_ = rng.uniform(1.6F, 2.4F);
   marks_.clear();
   add_field_lines(field);
+  for (int i = 0; i < options.debris; ++i) {
+    Mark speck;
+    speck.kind = Kind::disc;
+    speck.x = rng.uniform(-half_length_, half_length_);
+    speck.y = rng.uniform(-half_width_, half_width_);
+    speck.radius = rng.uniform(0.003F, 0.007F);
+    marks_.push_back(speck);
+  }
   if (options.floor_line_inset > 0.0F) add_floor_lines(options.floor_line_inset);
   build_cells();
 }

@@ -19,7 +19,8 @@ struct GroundOptions {
   bool wood = false;            // else plain concrete
   bool cross_marks = false;     // penalty mark as a cross, else a disc
   float wear = 0.0F;            // 0..1: share of the paint that is gone
-  float ragged = 0.0025F;       // metres, 1 sigma, by which the paint's edge wanders
+  int debris = 8;               // bright specks of a few millimetres on the carpet
+  float ragged = 0.0018F;       // metres, 1 sigma, by which the paint's edge wanders
   float grain = 0.10F;          // relative strength of the carpet's texture
   float floor_line_inset = 0.5F;  // metres between the carpet and a line on the floor; 0: no such lines
 };

@@ -49,9 +49,11 @@ void SimRenderer::find_candidates(const Scene& scene) {
     float cosine, sine;
   };
   std::vector<Cone> cones;
+  bounds_.clear();
   for (const Solid& s : scene.solids()) {
     const Vec3 to = s.centre - origin_;
     const float distance = square_root(dot(to, to));
+    bounds_.push_back({to, dot(to, to) - s.bound * s.bound * 1.0001F});
     const float sine = distance <= s.bound ? 2.0F : s.bound / distance;
     const float cosine = sine > 1.0F ? -2.0F : square_root(1.0F - sine * sine);
     cones.push_back({multiply_transposed(rotation_, to * (1.0F / math::max(distance, 1e-6F))), cosine, sine});
@@ -97,6 +99,9 @@ Rgb SimRenderer::shade(const Scene& scene, int tile, const Vec3& direction, cons
   const auto first = tile_start_[static_cast<std::size_t>(tile)];
   const auto last = tile_start_[static_cast<std::size_t>(tile) + 1U];
   for (auto i = first; i < last; ++i) {
+    const Bound& bound = bounds_[tile_solids_[i]];
+    const float along = dot(bound.to, direction);
+    if (bound.clear2 > 0.0F && (along < 0.0F || along * along < bound.clear2)) continue;
     const Solid& solid = solids[tile_solids_[i]];
     if (!intersect(solid, origin_, direction, nearest, hit)) continue;
     nearest = hit.t;

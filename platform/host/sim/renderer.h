@@ -26,6 +26,10 @@ class SimRenderer {
  private:
   using Identity = std::uint16_t;  // of what a pixel shows: 0 ground, 1..5 walls, then 8 a solid
 
+  struct Bound {  // a solid's bounding sphere, seen from the camera
+    Vec3 to;             // its centre
+    float clear2 = 0.0F; // squared distance along a ray below which the ray passes beside it; < 0: the camera is inside
+  };
   struct Row {  // rays in the field's axes, and where they meet the ground
     std::vector<float> x, y, z, ground_x, ground_y;
     void resize(int width);
@@ -49,6 +53,7 @@ class SimRenderer {
   Vec3 origin_;    // camera in the field frame
   LightRows light_;
   std::vector<Identity> identity_;
+  std::vector<Bound> bounds_;
   std::vector<std::uint32_t> tile_start_;
   std::vector<std::uint16_t> tile_solids_;
   Row rows_[2];

@@ -6,7 +6,7 @@ namespace touchline::sim {
 
 SceneOptions random_scene(const FieldDimensions& field, std::uint64_t seed) {
   static constexpr int carpets[6][3] = {{59, 121, 73}, {69, 116, 64}, {48, 108, 79},
-                                        {60, 128, 100}, {74, 112, 52}, {52, 84, 34}};
+                                        {60, 128, 100}, {74, 112, 52}, {54, 70, 32}};
   Rng rng(seed, 3);
   SceneOptions o;
   o.field = field;
@@ -26,7 +26,7 @@ SceneOptions random_scene(const FieldDimensions& field, std::uint64_t seed) {
   o.robots = static_cast<int>(rng.below(4));
   o.robot_height = field.length > 10.0F ? rng.uniform(0.8F, 1.2F) : rng.uniform(0.45F, 0.7F);
   o.own_feet = rng.uniform() < 0.3F;
-  o.exposure = rng.uniform(0.8F, 1.15F);
+  o.exposure = rng.uniform(0.9F, 1.35F);
   return o;
 }
 

@@ -23,7 +23,7 @@ struct SceneOptions {
   GroundOptions ground;
   bool yellow_posts = true;  // else white
   bool ball = true;
-  bool orange_ball = true;   // else white with dark patches
+  bool orange_ball = true;   // else white
   bool clutter = true;       // people, boards, chairs around the carpet
   int robots = 3;            // other robots on the field
   float robot_height = 0.6F;

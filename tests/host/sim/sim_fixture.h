@@ -32,6 +32,7 @@ inline SceneOptions plain_scene(const FieldDimensions& field) {
   o.ground.floor = rgb8(120, 120, 120);
   o.ground.grain = 0.0F;
   o.ground.ragged = 0.0F;
+  o.ground.debris = 0;
   o.ground.floor_line_inset = 0.0F;
   o.clutter = false;
   o.ball = false;
