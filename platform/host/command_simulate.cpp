@@ -18,7 +18,7 @@ sim::DataSetHead make_head(const SimulateCommand& command) {
   }
   const auto camera = sim::camera_model(command.camera);
   if (!camera) {
-    throw HostError("--camera " + command.camera + ": no such camera; use fisheye-185, fisheye-140 or fisheye-140-kb");
+    throw HostError("--camera " + command.camera + ": no such camera; use fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb");
   }
   head.name = "sim-" + command.kind + "-" + command.field + "-" + std::to_string(command.seed);
   head.field_name = command.field;
@@ -30,7 +30,7 @@ sim::DataSetHead make_head(const SimulateCommand& command) {
 
 int write_walk(const SimulateCommand& command, sim::DataSetHead head) {
   if (!(command.seconds >= 0.0 && command.seconds <= 3600.0)) throw HostError("--seconds: give 0 to 3600");
-  if (!(command.frames_per_second >= 5.0 && command.frames_per_second <= 60.0)) throw HostError("--fps: give 5 to 60");
+  if (!(command.frames_per_second >= 5.0 && command.frames_per_second <= 100.0)) throw HostError("--fps: give 5 to 100");
   sim::WalkScenarioOptions options = sim::acceptance_walk(head.field, head.camera, command.seed);
   options.frames_per_second = static_cast<float>(command.frames_per_second);
   options.yaw = command.yaw;

@@ -35,6 +35,11 @@ std::optional<SimCameraModel> camera_model(std::string_view name) {
     m.height = 480;
     m.lens.focal_px = 232.9F;
     m.lens.max_theta = radians(92.5F);
+  } else if (name == "fisheye-185-qvga") {
+    m.width = 320;
+    m.height = 240;
+    m.lens.focal_px = 99.1F;
+    m.lens.max_theta = radians(92.5F);
   } else if (name == "fisheye-140") {
     m.width = 640;
     m.height = 480;

@@ -20,7 +20,8 @@ struct SimCameraModel {
   int height = 0;
 };
 /// "fisheye-185": 752 x 480, equidistant, 232.9 px, seen to 92.5 degrees. "fisheye-140": 640 x 480, equisolid, 70 degrees at
-/// the left and right edge. "fisheye-140-kb": the same field of view, Kannala-Brandt. Nothing for another name.
+/// the left and right edge. "fisheye-140-kb": the same field of view, Kannala-Brandt. "fisheye-185-qvga": 320 x 240, the
+/// first lens on a small sensor, as on microcontrollers. Nothing for another name.
 std::optional<SimCameraModel> camera_model(std::string_view name);
 
 /// What the sensors say between frames, at their own rate.

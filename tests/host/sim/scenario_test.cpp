@@ -29,7 +29,7 @@ PoseScenarioOptions poses(std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("scenario: cameras by name") {
-  for (const char* name : {"fisheye-185", "fisheye-140", "fisheye-140-kb"}) {
+  for (const char* name : {"fisheye-185", "fisheye-185-qvga", "fisheye-140", "fisheye-140-kb"}) {
     const auto model = camera_model(name);
     REQUIRE(model.has_value());
     Lens lens;
