@@ -213,7 +213,8 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& candidates = views_.mask(MaskId::candidates);
   const BitView& roi = views_.mask(MaskId::roi);
   and_with(candidates, roi);
-  find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates);
+  find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates,
+                    views_.mask(MaskId::scratch));
   result.candidates = candidates;
   result.counts.candidate_pixels = count(candidates);
 }

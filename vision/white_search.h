@@ -8,6 +8,7 @@
 
 #include "vision/green.h"
 #include "vision/image/bit_image.h"
+#include "vision/image/grow.h"
 #include "vision/image/image_view.h"
 #include "vision/line_width_table.h"
 
@@ -27,11 +28,13 @@ struct SpanCounts {
 SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, ConstBitView white, LineWidthView widths,
                             const CarpetModel& carpet, BitView lines);
 
-/// Adds to `lines` the pixels of `roi` that stand out from the green on both sides, along the row or along the column. Only where
-/// a line is at most `max_ridge_px` wide; beyond, spans find it.
+/// Adds to `lines` the pixels of `roi` that stand out from the green on both sides, along the row or along the column, by three times
+/// the noise; and those that stand out by half of that and hang together with such a one, or with a line that is there already.
+/// Only where a line is at most `max_ridge_px` wide; beyond, spans find it. `scratch` has the size of `lines` and holds all weak
+/// ridges afterwards. The result tells whether the growing ended within its bound.
 inline constexpr int max_ridge_px = 8;
-int find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
-                      const CarpetModel& carpet, BitView lines);
+GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
+                             const CarpetModel& carpet, BitView lines, BitView scratch);
 
 /// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line, and the
 /// rest of a line that the picture's border cuts. `scratch` has the same size.
