@@ -73,8 +73,12 @@ PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int leas
         const int x = i * bits_per_word + std::countr_zero(scratch.row(y)[i]);
         const Piece piece = move_piece(scratch, &skeleton, x, y, stack);
         if (piece.overflowed) {
-          ++counts.overflowed;
-        } else if (is_short(piece, widths, least_px)) {
+          // What is left of it looks like pieces of its own: all that was not looked at stays.
+          counts.overflowed = 1;
+          or_with(skeleton, scratch);
+          return counts;
+        }
+        if (is_short(piece, widths, least_px)) {
           (void)move_piece(skeleton, nullptr, x, y, stack);
           ++counts.removed;
           continue;

@@ -16,7 +16,7 @@ inline constexpr int least_length_in_widths = 3;  // a mark is one line width ac
 struct PieceCounts {
   int kept = 0;
   int removed = 0;
-  int overflowed = 0;  // pieces that did not fit `stack` and were kept without a check
+  int overflowed = 0;  // 1: a piece did not fit `stack`; it and all that follows were kept without a check
 };
 
 /// Removes from `skeleton` each 8-connected piece that extends over less than three line widths or less than `least_px`
