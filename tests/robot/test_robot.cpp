@@ -14,7 +14,7 @@ Scene make_scene() {
   sim::PoseScenarioOptions options;
   options.field = *field_preset("acyut-5x3");
   options.camera = *sim::camera_model("fisheye-185");
-  options.seed = 5;
+  options.seed = 6;  // a scene that is told from all others without a yaw
   options.tilt_noise = 0.0F;
   sim::PoseScenario scenario(options);
   if (!scenario.ready()) std::abort();
