@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "platform/host/command_simulate.h"
+#include "platform/host/demo.h"
 #include "platform/host/host_error.h"
 
 namespace touchline::host {
@@ -54,6 +55,7 @@ struct Commands {
   LocateCommand locate;
   AcceptCommand accept;
   SimulateCommand simulate;
+  DemoCommand demo;
   WorkSize work;
 };
 
@@ -122,6 +124,15 @@ void add_simulate(CLI::App& app, Commands& commands) {
   sub->footer(std::string("Example: touchline simulate my-walk --seconds 20 --kidnap 10 --jpeg 92") + exit_text);
 }
 
+void add_demo(CLI::App& app, Commands& commands) {
+  DemoCommand& command = commands.demo;
+  auto* sub = app.add_subcommand("demo", "a simulated robot walks, is kidnapped in the middle, and finds its place again");
+  sub->add_option("--output", command.output, "folder for stages.png, field.png and summary.json")->capture_default_str();
+  sub->add_option("--seconds", command.seconds, "simulated seconds")->check(CLI::Range(2.0, 3600.0))->capture_default_str();
+  sub->add_option("--seed", command.seed, "seed of everything")->capture_default_str();
+  sub->footer(std::string("Example: touchline demo --output demo --seed 7") + exit_text);
+}
+
 void add_memory(CLI::App& app) {
   auto* sub = app.add_subcommand("memory", "what the chain's state takes, struct by struct");
   sub->footer(std::string("Example: touchline memory") + exit_text);
@@ -134,6 +145,7 @@ int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream
   if (app.got_subcommand("locate")) return run_locate(commands.locate, out, err);
   if (app.got_subcommand("accept")) return run_accept(commands.accept, out, err);
   if (app.got_subcommand("simulate")) return run_simulate(commands.simulate, out);
+  if (app.got_subcommand("demo")) return run_demo(commands.demo, out);
   if (app.got_subcommand("memory")) return run_memory(out);
   out << app.help();
   return exit_ok;
@@ -141,15 +153,17 @@ int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream
 
 }  // namespace
 
-int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err, bool terminal) {
   CLI::App app{"touchline tells a humanoid soccer robot where it stands.", "touchline"};
   app.require_subcommand(0, 1);
   app.footer(std::string("Each command has its own --help with an example.") + exit_text);
   Commands commands;
+  commands.demo.live = terminal;
   add_evaluate(app, commands);
   add_locate(app, commands);
   add_accept(app, commands);
   add_simulate(app, commands);
+  add_demo(app, commands);
   add_memory(app);
   try {
     app.parse(argc, argv);

@@ -45,7 +45,8 @@ int run_accept(const AcceptCommand& command, std::ostream& out, std::ostream& er
 /// Prints what the state of the chain takes, struct by struct.
 int run_memory(std::ostream& out);
 
-/// Parses the arguments, runs the command, and turns every error into one line on `err` and status 2.
-int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
+/// Parses the arguments, runs the command, and turns every error into one line on `err` and status 2. `terminal`: `out`
+/// is one, and a line may be written over.
+int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err, bool terminal = false);
 
 }  // namespace touchline::host
