@@ -126,9 +126,13 @@ void add_simulate(CLI::App& app, Commands& commands) {
 
 void add_demo(CLI::App& app, Commands& commands) {
   DemoCommand& command = commands.demo;
-  auto* sub = app.add_subcommand("demo", "a simulated robot walks, is kidnapped in the middle, and finds its place again");
-  sub->add_option("--output", command.output, "folder for stages.png, field.png and summary.json")->capture_default_str();
-  sub->add_option("--seconds", command.seconds, "simulated seconds")->check(CLI::Range(2.0, 3600.0))->capture_default_str();
+  auto* sub =
+      app.add_subcommand("demo", "a simulated robot walks, is kidnapped in the middle, and finds its place again");
+  sub->add_option("--output", command.output, "folder for stages.png, field.png and summary.json")
+      ->capture_default_str();
+  sub->add_option("--seconds", command.seconds, "simulated seconds")
+      ->check(CLI::Range(2.0, 3600.0))
+      ->capture_default_str();
   sub->add_option("--seed", command.seed, "seed of everything")->capture_default_str();
   sub->footer(std::string("Example: touchline demo --output demo --seed 7") + exit_text);
 }

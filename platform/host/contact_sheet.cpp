@@ -78,14 +78,14 @@ class Sheet {
 
   RgbImage draw() {
     place("1A  camera frame", Canvas(*input_.picture));
-    place("1B  green contour (red), its convex hull (blue), on the mean of the frames", contour());
+    place("1B  green contour (red), convex hull (blue)", contour());
     place("1C  region of interest", masked(vision_.roi, mean_));
     place("2A  line candidates in the region of interest", candidates());
     place("2B  skeleton of the line mask", skeleton());
-    place("2C  node graph: major nodes (blue), features (pink), edge ends (yellow)", graph());
-    place("3A  features: X, T, L, posts, circle; what was turned down (grey)", features());
+    place("2C  node graph: nodes, features, edge ends", graph());
+    place("3A  features, and what was turned down", features());
     place("3B  field with particles and the pose (black)", map());
-    place("     green mask (green), line mask (white)", masks());
+    place("    green mask, line mask (white)", masks());
     return canvas_.image();
   }
 
@@ -154,8 +154,8 @@ class Sheet {
   Canvas map() const {
     Canvas tile(width_, height_, colours::grey);
     FieldMap field(tile, *input_.field, 4, 4, width_ - 8, height_ - 8);
-    field.particles(input_.particles, colours::black);
-    if (input_.estimate.valid) field.pose(input_.estimate.pose, colours::black, 0.12F);
+    field.particles(input_.particles, colours::black, 3.0F);
+    if (input_.estimate.valid) field.pose(input_.estimate.pose, colours::black, 0.08F);
     return tile;
   }
   Canvas masks() const {

@@ -11,7 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/app/robot_app.h"
 #include "platform/host/canvas.h"
 #include "platform/host/command_line.h"
 #include "platform/host/contact_sheet.h"
@@ -20,6 +19,7 @@
 #include "platform/host/pose_error.h"
 #include "platform/host/sim/sim_devices.h"
 #include "platform/host/stage_clock.h"
+#include "platform/robot/robot_loop.h"
 #include "vision/pipeline_storage.h"
 
 namespace touchline::host {
@@ -52,11 +52,6 @@ class KeepingCamera final : public Camera {
   RgbImage picture_;
 };
 
-void check(Status status, const char* part, const char* what) {
-  if (status == Status::ok) return;
-  throw HostError(std::string("the demo's ") + part + " is refused: " + (what != nullptr ? what : touchline::to_string(status)));
-}
-
 /// What was true and what was believed, frame by frame.
 struct Track {
   std::vector<JudgedFrame> judged;
@@ -67,30 +62,35 @@ struct Track {
 class Demo {
  public:
   Demo(const DemoCommand& command, std::ostream& out)
-      : command_(command), out_(out), options_(scenario(command)), robot_(options_, command.seconds), camera_(robot_.camera()) {
+      : command_(command),
+        out_(out),
+        options_(scenario(command)),
+        robot_(options_, command.seconds),
+        camera_(robot_.camera()) {
     if (!robot_.ready()) throw HostError("the simulator refuses the demo's scene");
-    configure();
     std::error_code failed;
     std::filesystem::create_directories(command_.output, failed);
-    if (failed) throw HostError(command_.output + ": cannot be made: " + failed.message() + "; choose another --output");
+    if (failed)
+      throw HostError(command_.output + ": cannot be made: " + failed.message() + "; choose another --output");
   }
 
   int run() {
-    RobotAppConfig config;
-    const CameraPose& rest = options_.walk.camera;
-    config.mount = {rest.x, rest.y, rest.height, rest.yaw, rest.pitch, rest.roll, {0.0F, 0.0F, rest.height - 0.1F}, {}};
-    config.goal_yaw = options_.imu.goal_yaw;
-    config.seed = command_.seed;
-    RobotApp app({&camera_, &robot_.clock(), &robot_.imu(), &robot_.gait(), &robot_.panel()}, pipeline_, localizer_, config);
-    app.start();
-    RobotStep step;
-    while (app.step(step, &clock_) != Status::end_of_data) {
-      if (step.result == Status::ok) use(step);
+    RobotLoop loop({&camera_, &robot_.imu(), &robot_.gait(), &robot_.panel(), &robot_.clock()}, storage_.memory(),
+                   localizer_);
+    const char* what = nullptr;
+    const Status status = loop.configure(robot_config(), &what);
+    if (status != Status::ok) {
+      throw HostError(std::string("the demo's robot is refused: ") +
+                      (what != nullptr ? what : touchline::to_string(status)));
     }
-    app.stop();
+    RobotReport report;
+    for (Status turn = Status::ok; turn != Status::end_of_data;) {
+      turn = loop.turn(report, &clock_);
+      if (turn == Status::ok && report.from_frame) use(report, loop.vision());
+    }
     if (command_.live) out_ << "\n";
     write_field();
-    return report();
+    return tell_result();
   }
 
  private:
@@ -103,50 +103,60 @@ class Demo {
     return options;
   }
 
-  void configure() {
-    const char* what = nullptr;
-    VisionConfig vision;
-    vision.frame_width = options_.camera.width;
-    vision.frame_height = options_.camera.height;
-    vision.line_width_m = options_.walk.field.line_width;
-    vision.post_diameter_m = options_.walk.field.post_diameter;
-    Lens lens;
-    check(Lens::create(options_.camera.lens, lens, &what), "lens", what);
-    check(pipeline_.configure(vision, lens, &what), "vision", what);
-    Field field;
-    check(Field::create(options_.walk.field, field, &what), "field", what);
-    check(localizer_.configure({}, field, &what), "localization", what);
+  [[nodiscard]] RobotConfig robot_config() const {
+    RobotConfig config;
+    config.vision.frame_width = options_.camera.width;
+    config.vision.frame_height = options_.camera.height;
+    config.vision.line_width_m = options_.walk.field.line_width;
+    config.vision.post_diameter_m = options_.walk.field.post_diameter;
+    config.lens = options_.camera.lens;
+    config.field = options_.walk.field;
+    config.seed = command_.seed;
+    const CameraPose& rest = options_.walk.camera;
+    config.mount.x = rest.x;
+    config.mount.y = rest.y;
+    config.mount.height = rest.height;
+    config.mount.yaw = rest.yaw;
+    config.mount.pitch = rest.pitch;
+    config.mount.roll = rest.roll;
+    config.goal_yaw_known = true;
+    config.goal_yaw = options_.imu.goal_yaw;
+    return config;
   }
 
-  void use(const RobotStep& step) {
+  void use(const RobotReport& step, const VisionResult& vision) {
     const sim::SimFrame& truth = robot_.truth();
     const PoseError error = judge(truth.truth, step.estimate);
     track_.judged.push_back({truth.time_s, truth.kidnapped, error});
     track_.truth.push_back(truth.truth);
     if (step.estimate.valid) track_.estimate.push_back(step.estimate.pose);
     tell(truth, step, error);
-    const std::size_t seen = step.vision.features->junctions.size();
+    const std::size_t seen = vision.features->junctions.size();
     if (step.estimate.settled && seen > most_seen_) {  // the sheet shows the frame with the most to see
       most_seen_ = seen;
-      write_sheet(step);
+      write_sheet(step, vision);
     }
   }
 
-  void tell(const sim::SimFrame& truth, const RobotStep& step, const PoseError& error) {
-    const bool whole_second = static_cast<int>(truth.time_s) != static_cast<int>(last_told_s_) || track_.judged.size() == 1;
-    if (truth.kidnapped) out_ << (command_.live ? "\n" : "") << "         the robot is picked up and put down elsewhere; nobody tells it\n";
+  void tell(const sim::SimFrame& truth, const RobotReport& step, const PoseError& error) {
+    const bool whole_second =
+        static_cast<int>(truth.time_s) != static_cast<int>(last_told_s_) || track_.judged.size() == 1;
+    if (truth.kidnapped)
+      out_ << (command_.live ? "\n" : "")
+           << "         the robot is picked up and put down elsewhere; nobody tells it\n";
     if (!command_.live && !whole_second && !truth.kidnapped) return;
     last_told_s_ = truth.time_s;
     char text[200];
     const Pose2& t = truth.truth;
     const Pose2& e = step.estimate.pose;
     const auto number = [](float v) { return static_cast<double>(v); };
-    int length = std::snprintf(text, sizeof text, "%5.1f s  truth %6.2f %6.2f m %6.1f deg   ", truth.time_s, number(t.x),
-                               number(t.y), number(degrees(t.theta)));
+    int length = std::snprintf(text, sizeof text, "%5.1f s  truth %6.2f %6.2f m %6.1f deg   ", truth.time_s,
+                               number(t.x), number(t.y), number(degrees(t.theta)));
     const auto rest = sizeof text - static_cast<std::size_t>(length);
     if (step.estimate.valid) {
-      std::snprintf(text + length, rest, "estimate %6.2f %6.2f m %6.1f deg   off by %5.3f m %5.1f deg, confidence %.2f", number(e.x),
-                    number(e.y), number(degrees(e.theta)), error.distance_m, error.angle_deg, number(step.estimate.confidence));
+      std::snprintf(text + length, rest, "estimate %6.2f %6.2f m %6.1f deg   off by %5.3f m %5.1f deg, confidence %.2f",
+                    number(e.x), number(e.y), number(degrees(e.theta)), error.distance_m, error.angle_deg,
+                    number(step.estimate.confidence));
     } else {
       std::snprintf(text + length, rest, "%-75s", "no pose");
     }
@@ -160,11 +170,11 @@ class Demo {
     return out;
   }
 
-  void write_sheet(const RobotStep& step) {
+  void write_sheet(const RobotReport& step, const VisionResult& vision) {
     const std::vector<Pose2> poses = particles();
     ContactSheetInput input;
     input.picture = &camera_.picture();
-    input.vision = &step.vision;
+    input.vision = &vision;
     input.field = &localizer_.field();
     input.estimate = step.estimate;
     input.particles = poses;
@@ -178,8 +188,8 @@ class Demo {
     map.particles(particles(), colours::orange);
     map.path(track_.truth, colours::cyan, 4);
     map.path(track_.estimate, colours::red, 2);
-    if (!track_.truth.empty()) map.pose(track_.truth.back(), colours::cyan);
-    if (!track_.estimate.empty()) map.pose(track_.estimate.back(), colours::red);
+    if (!track_.truth.empty()) map.pose(track_.truth.back(), colours::cyan, 0.06F);
+    if (!track_.estimate.empty()) map.pose(track_.estimate.back(), colours::red, 0.05F);
     canvas.text(12, 8, "truth", colours::cyan, 2);
     canvas.text(100, 8, "estimate", colours::red, 2);
     canvas.text(220, 8, "particles at the end", colours::orange, 2);
@@ -189,12 +199,13 @@ class Demo {
       const DrawPoint from = map.place({track_.truth[i - 1].x, track_.truth[i - 1].y});
       const DrawPoint to = map.place({track_.truth[i].x, track_.truth[i].y});
       canvas.arrow(from, to, colours::pink, 2);
-      canvas.label(static_cast<int>((from.x + to.x) * 0.5F), static_cast<int>((from.y + to.y) * 0.5F), "kidnap", colours::pink, 2);
+      canvas.label(static_cast<int>((from.x + to.x) * 0.5F), static_cast<int>((from.y + to.y) * 0.5F), "kidnap",
+                   colours::pink, 2);
     }
     write_png(file("field.png"), canvas.image());
   }
 
-  int report() {
+  int tell_result() {
     const SequenceScore score = judge_sequence(track_.judged);
     int wrong_half = 0;
     int outside = 0;
@@ -225,7 +236,8 @@ class Demo {
                                             {"us_mean", us}};
     std::ofstream(file("summary.json")) << summary.dump(2) << "\n";
     char text[200];
-    std::snprintf(text, sizeof text, "RMSE %.3f m %.2f deg over %d frames; ", score.rmse_m, score.rmse_deg, score.counted);
+    std::snprintf(text, sizeof text, "RMSE %.3f m %.2f deg over %d frames; ", score.rmse_m, score.rmse_deg,
+                  score.counted);
     out_ << text;
     for (const auto& seconds : score.back_s) {
       std::snprintf(text, sizeof text, seconds ? "back %.2f s after the kidnap; " : "never back after the kidnap; ",
@@ -236,7 +248,9 @@ class Demo {
     return is_back ? exit_ok : exit_missed;
   }
 
-  [[nodiscard]] std::filesystem::path file(const char* name) const { return std::filesystem::path(command_.output) / name; }
+  [[nodiscard]] std::filesystem::path file(const char* name) const {
+    return std::filesystem::path(command_.output) / name;
+  }
 
   DemoCommand command_;
   std::ostream& out_;
@@ -244,7 +258,6 @@ class Demo {
   sim::SimRobot robot_;
   KeepingCamera camera_;
   PipelineStorage<> storage_;
-  Pipeline pipeline_{storage_.memory()};
   Localizer localizer_;
   StageClock clock_;
   Track track_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `touchline demo`: the robot's application on the simulator's devices, with a kidnap in the middle, and pictures of it.
+// `touchline demo`: the robot's application on the simulator's devices, with a kidnap in the middle, and pictures of
+// it.
 #pragma once
 
 #include <cstdint>

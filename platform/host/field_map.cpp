@@ -48,16 +48,16 @@ void FieldMap::draw_field() {
 void FieldMap::landmarks(Colour colour) {
   for (const auto& landmark : field_.landmarks()) {
     const DrawPoint at = place(landmark.at);
-    canvas_.circle(at, 5.0F, colour);
-    canvas_.text(static_cast<int>(at.x) + 7, static_cast<int>(at.y) - 9, to_string(landmark.type), colour);
+    canvas_.circle(at, 6.0F, colour, 2);
+    canvas_.label(static_cast<int>(at.x) + 9, static_cast<int>(at.y) - 18, to_string(landmark.type), colour, 2);
   }
 }
 
-void FieldMap::particles(std::span<const Pose2> poses, Colour colour) {
+void FieldMap::particles(std::span<const Pose2> poses, Colour colour, float radius_px) {
   for (const auto& pose : poses) {
     const DrawPoint at = place({pose.x, pose.y});
-    canvas_.line(at, place(ahead(pose, 5.0F / scale_)), colour);
-    canvas_.disc(at, 1.5F, colour);
+    canvas_.line(at, place(ahead(pose, 4.0F * radius_px / scale_)), colour);
+    canvas_.disc(at, radius_px, colour);
   }
 }
 

@@ -19,9 +19,9 @@ class FieldMap {
   [[nodiscard]] float pixels_per_metre() const { return scale_; }
 
   void landmarks(Colour colour);
-  void particles(std::span<const Pose2> poses, Colour colour);
+  void particles(std::span<const Pose2> poses, Colour colour, float radius_px = 2.0F);
   /// A disc and an arrow in the robot's direction.
-  void pose(const Pose2& pose, Colour colour, float radius_m = 0.10F);
+  void pose(const Pose2& pose, Colour colour, float radius_m = 0.06F);
   void path(std::span<const Pose2> poses, Colour colour, int thickness = 1);
 
  private:

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line as a user meets it: help, JSON lines, annotated pictures, and one clear line with status 2 for every
+// kind of bad input.
+#include "platform/host/command_line.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/temp_folder.h"
+
+namespace touchline::host {
+namespace {
+
+struct Run {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+Run run(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv{"touchline"};
+  for (const auto& a : arguments) argv.push_back(a.c_str());
+  std::ostringstream out;
+  std::ostringstream err;
+  Run result;
+  result.status = touchline_main(static_cast<int>(argv.size()), argv.data(), out, err);
+  result.out = out.str();
+  result.err = err.str();
+  return result;
+}
+
+const char* const toml = R"(
+name = "tiny"
+field = "acyut-5x3"
+[camera]
+width = 320
+height = 240
+model = "equidistant"
+focal_px = 100.0
+max_theta_deg = 92.5
+[mount]
+height_m = 0.58
+pitch_deg = 30.0
+)";
+
+/// One frame of a plain carpet: nothing to be seen, so there is no pose.
+void write_tiny(const TempFolder& folder, const std::string& settings = toml,
+                const std::string& lines = "{\"image\": \"images/0.png\", \"t_s\": 0.5, \"imu_yaw_deg\": 3}\n") {
+  folder.write("dataset.toml", settings);
+  folder.write("frames.jsonl", lines);
+  folder.write("images/x", "");
+  RgbImage carpet(320, 240);
+  for (std::size_t i = 1; i < carpet.rgb.size(); i += 3) carpet.rgb[i] = 120;
+  write_png(folder.path() / "images/0.png", carpet);
+}
+
+/// Status 2, nothing but one line of complaint, and no trace of where in the program it happened.
+void check_refused(const Run& result, const std::string& part) {
+  CAPTURE(result.err);
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, part));
+  CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+  CHECK(result.err.starts_with("touchline: "));
+  CHECK_FALSE(contains(result.err, ".cpp"));
+}
+
+TEST_CASE("every command has a help with an example, and help is no error") {
+  for (const char* command : {"evaluate", "locate", "accept", "simulate", "demo", "memory"}) {
+    CAPTURE(command);
+    const Run result = run({command, "--help"});
+    CHECK(result.status == 0);
+    CHECK(contains(result.out, std::string("Example: touchline ") + command));
+    CHECK(contains(result.out, "Exit status"));
+    CHECK(contains(run({}).out, command));
+  }
+}
+
+TEST_CASE("bad usage is status 2") {
+  CHECK(run({"evaluate"}).status == 2);
+  CHECK(run({"evaluate", "x", "--work", "100x100"}).status == 2);
+  CHECK(run({"evaluate", "x", "--model", "fuller"}).status == 2);
+  CHECK(run({"fly"}).status == 2);
+}
+
+TEST_CASE("evaluate --json prints one line a frame with the documented keys, then the summary") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const Run result = run({"evaluate", folder.path().string(), "--json"});
+  CAPTURE(result.err);
+  REQUIRE(result.status == 0);
+  std::istringstream lines(result.out);
+  std::string line;
+  REQUIRE(std::getline(lines, line));
+  const auto frame = nlohmann::json::parse(line);
+  CHECK(frame.at("image") == "images/0.png");
+  CHECK(frame.at("t_s") == 0.5);
+  CHECK(frame.at("pose").is_null());
+  CHECK(frame.at("std").is_null());
+  CHECK(frame.at("mirror").is_null());
+  CHECK(frame.at("confidence").is_number());
+  CHECK(frame.at("junctions").empty());
+  CHECK(frame.at("posts").empty());
+  for (const char* stage :
+       {"average", "green", "roi", "candidates", "line_mask", "thinning", "digestion", "graph", "localize"}) {
+    CHECK(frame.at("us").at(stage).is_number());
+  }
+  CHECK_FALSE(frame.contains("error"));  // no truth, no error
+  REQUIRE(std::getline(lines, line));
+  const auto summary = nlohmann::json::parse(line).at("summary");
+  CHECK(summary.at("frames") == 1);
+  CHECK(summary.at("with_truth") == 0);
+  CHECK(summary.at("sets").at(0).at("name") == "tiny");
+  CHECK_FALSE(std::getline(lines, line));
+}
+
+TEST_CASE("the table says the same for people, and --frames writes a picture of each frame") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const auto pictures = folder.path() / "out";
+  const Run result = run({"evaluate", folder.path().string(), "--frames", pictures.string(), "--model", "paper"});
+  REQUIRE(result.status == 0);
+  CHECK(contains(result.out, "no pose"));
+  CHECK(contains(result.out, "poses: 0 of 1 frames"));
+  CHECK(read_image(pictures / "tiny" / "0.png").width == 620);
+}
+
+TEST_CASE("locate needs no frames.jsonl") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const std::string camera = (folder.path() / "dataset.toml").string();
+  const std::string image = (folder.path() / "images/0.png").string();
+  CHECK(run({"locate", "--camera", camera, image}).status == 0);
+  check_refused(run({"locate", "--camera", camera, image, "--work", "640x480", "--json"}),
+                "vision refuses its configuration");
+  check_refused(run({"locate", "--camera", camera, image + "x"}), "no such image");
+  check_refused(run({"locate", "--camera", image, image}), "not valid TOML");
+}
+
+TEST_CASE("every kind of bad input is one clear line and status 2") {
+  const TempFolder folder;
+  const std::string path = folder.path().string();
+  check_refused(run({"evaluate", path}), "the folder is empty");
+  check_refused(run({"evaluate", path + "/none"}), "no such folder");
+  check_refused(run({"accept", path + "/none"}), "no such folder");
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = toml;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  write_tiny(folder, changed("0.58", "-0.58"));
+  check_refused(run({"evaluate", path}), "mount.height_m: is -0.58");
+  write_tiny(folder, changed("30.0", "nan"));
+  check_refused(run({"evaluate", path}), "mount.pitch_deg: is NaN");
+  write_tiny(folder, changed("equidistant", "fisheye"));
+  check_refused(run({"evaluate", path}), "camera.model: \"fisheye\" is not known; known are equidistant");
+  write_tiny(folder, toml, "{\"image\": \"images/0.png\"\n");
+  check_refused(run({"evaluate", path}), "frames.jsonl: line 1: not valid JSON");
+  write_tiny(folder, toml, "{\"image\": \"images/9.png\"}\n");
+  const Run missing = run({"evaluate", path, "--json"});
+  check_refused(missing, "images/9.png: no such image");
+  write_tiny(folder, changed("width = 320", "width = 300"));
+  check_refused(run({"evaluate", path, "--json"}), "the image is 320x240, but");
+  write_tiny(folder);
+  const std::string whole = folder.read("images/0.png");
+  folder.write("images/0.png", whole.substr(0, whole.size() / 2));
+  check_refused(run({"evaluate", path, "--json"}), "images/0.png: this PNG cannot be read");
+}
+
+TEST_CASE("memory prints the budget") {
+  const Run result = run({"memory"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "vision and localization"));
+}
+
+}  // namespace
+}  // namespace touchline::host
