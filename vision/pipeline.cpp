@@ -225,6 +225,7 @@ void Pipeline::make_line_mask(VisionResult& result) {
   copy(views_.mask(MaskId::candidates), lines);
   and_with(white, views_.mask(MaskId::roi));
   grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
+  trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch));
   dilate(lines, scaled(config_.line_dilate_px));
   erode(lines, scaled(config_.line_erode_px));
   and_with(lines, views_.mask(MaskId::roi));

@@ -353,6 +353,38 @@ class RidgeSearch {
   std::uint16_t weak_margin_ = 0;
 };
 
+/// border = pixels of `mask` that lack a neighbour in their row or column.
+void border_of(ConstBitView mask, BitView border) {
+  const int words = words_for(mask.width);
+  for (int y = 0; y < mask.height; ++y) {
+    const BitWord* row = mask.row(y);
+    for (int i = 0; i < words; ++i) {
+      BitWord inner = row[i] << 1 | (i > 0 ? row[i - 1] >> (bits_per_word - 1) : 0);
+      inner &= row[i] >> 1 | (i + 1 < words ? row[i + 1] << (bits_per_word - 1) : 0);
+      inner &= y > 0 ? mask.row(y - 1)[i] : 0;
+      inner &= y + 1 < mask.height ? mask.row(y + 1)[i] : 0;
+      border.row(y)[i] = row[i] & ~inner;
+    }
+  }
+}
+
+/// Whether a luma is below the middle between the darkest and the brightest within two pixels.
+bool below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
+  const int x0 = std::max(x - 2, 0);
+  const int x1 = std::min(x + 2, luma.width - 1);
+  const int y1 = std::min(y + 2, luma.height - 1);
+  int darkest = 255;
+  int brightest = 0;
+  for (int v = std::max(y - 2, 0); v <= y1; ++v) {
+    const std::uint8_t* row = luma.row(v);
+    for (int u = x0; u <= x1; ++u) {
+      darkest = std::min<int>(darkest, row[u]);
+      brightest = std::max<int>(brightest, row[u]);
+    }
+  }
+  return 2 * luma.at(x, y) < darkest + brightest;
+}
+
 /// Rows of a block row whose widest line still lets `lines` grow at this step.
 bool grows(LineWidthView widths, int block_y, int step) {
   for (int i = 0; i < widths.width; ++i) {
@@ -381,6 +413,15 @@ GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, Con
     for (int bx = 0; bx < widths.width; ++bx) search.search_block(bx, by, widths.at(bx, by));
   }
   return grow_inside(lines, scratch);
+}
+
+void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch) {
+  for (int pass = 0; pass < 2; ++pass) {
+    border_of(lines, scratch);
+    for_each_set_bit(scratch, [&](int x, int y) {
+      if (below_half_level(luma, x, y)) lines.set(x, y, false);
+    });
+  }
 }
 
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch) {

@@ -36,6 +36,10 @@ inline constexpr int max_ridge_px = 8;
 GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
                              const CarpetModel& carpet, BitView lines, BitView scratch);
 
+/// Takes pixels off the border of `lines` whose luma is nearer to the carpet's than to the line's (the darkest and the brightest
+/// within two pixels): what blur and the coarser chroma let in. Two passes. `scratch` has the same size.
+void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch);
+
 /// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line, and the
 /// rest of a line that the picture's border cuts. `scratch` has the same size.
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch);
