@@ -17,7 +17,7 @@ struct Cluster {
   int count = 0;
 };
 
-inline constexpr std::size_t max_clusters = 12;  // a frame leaves four places open by symmetry, and some by chance
+inline constexpr std::size_t max_clusters = 24;  // a lone corner fits a dozen places of a field, and their mirror images
 using ClusterList = StaticVector<Cluster, max_clusters>;
 using ClusterIndex = std::array<std::int8_t, max_particles>;  // of each particle; -1: in none
 

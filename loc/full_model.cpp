@@ -2,6 +2,9 @@
 // The full model: particles carry the belief; each of their clusters is refined by Gauss-Newton on the line points, and judged
 // by what the refined pose explains and by what it says must be there and is not. Mass is shared out among the
 // clusters by that evidence, and particles are drawn anew about the refined poses.
+#include <algorithm>
+#include <array>
+
 #include "loc/localizer.h"
 #include "loc/motion_model.h"
 #include "loc/resampling.h"
@@ -19,7 +22,7 @@ constexpr float missing_nats_per_metre = 4.0F;
 constexpr float temper = 0.5F;              // measurements share the frame's errors: half of what independence would give
 constexpr float max_step_nats = 5.0F;       // what one frame may say at most: one bad frame must not lose the pose
 constexpr float search_share = 0.10F;       // of AMCL: from here on the frame's own candidates are looked for
-constexpr float negligible_mass = 1e-3F;    // by the particles' own weights: not worth a closer look
+constexpr float negligible_mass = 1e-5F;    // by the particles' own weights: not worth a closer look
 constexpr int polish_steps = 3;             // of the best mode on all samples; the others saw the evenly thinned ones
 
 struct Factor {  // lower-triangular square root of a 3x3 covariance
@@ -47,7 +50,7 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   if (observation_.line_weight > 1.0F) augmented_.update(average, config_.augmented);
   const float share = frames_ == 0 ? 0.5F : augmented_.random_share(config_.augmented);
   const bool unsure = !last_.valid || certainty(last_) < config_.confident;
-  if (unsure || share > search_share) inject_candidates(yaw, math::max(share, unsure ? 0.25F : 0.0F));
+  if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? 0.25F : 0.0F));
   find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
   refine_clusters(vision, yaw);
   balance_twins(yaw);
@@ -74,28 +77,38 @@ float Localizer::weigh_particles(const YawEvidence& yaw) {
   return sum / static_cast<float>(p.count);
 }
 
-/// Puts the frame's own candidates in place of the lightest particles: `share` of all, the best candidates first.
-void Localizer::inject_candidates(const YawEvidence& yaw, float share) {
+/// Log likelihood of a pose drawn from the picture, as a particle's.
+float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw) const {
+  return temper * (line_log_likelihood(map_, observation_, pose, particle_sigma) +
+                   landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma)) +
+         yaw_log_likelihood(yaw, pose.theta);
+}
+
+/// Puts the frame's own candidates in place of the last particles, `share` of all. Those that put lines where there
+/// are none have been moved to the end: with little in view many places explain what is seen, and few what is not.
+void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
   find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
   if (candidates_.empty()) return;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    Refinement as_given;
+    as_given.pose = candidates_[i].pose;
+    candidates_[i].missing = missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
+    candidates_[i].score -= candidates_[i].missing;
+  }
+  sort_best_first(candidates_);
   const ParticleView p = particles();
-  const int count = math::min(share, 0.5F) * static_cast<float>(p.count) < 1.0F
-                        ? 1
-                        : static_cast<int>(math::min(share, 0.5F) * static_cast<float>(p.count));
-  // Stratified by weight rank would need a sort; the tail of a resampled set is as good as any other part of it.
+  const int count = std::max(1, static_cast<int>(math::min(share, 0.5F) * static_cast<float>(p.count)));
   for (int k = 0; k < count; ++k) {
-    const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % candidates_.size()];
+    const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % std::min(candidates_.size(), max_clusters)];
     const int i = p.count - 1 - k;
     Pose2 pose = c.pose;
-    if (static_cast<std::size_t>(k) >= candidates_.size()) {
+    if (k >= static_cast<int>(max_clusters)) {
       pose.x += 0.08F * rng_.gaussian();
       pose.y += 0.08F * rng_.gaussian();
       pose.theta = wrap_angle(pose.theta + 0.05F * rng_.gaussian());
     }
     p.set_pose(i, pose);
-    p.log_weight[i] = temper * (line_log_likelihood(map_, observation_, pose, particle_sigma) +
-                                landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma)) +
-                      yaw_log_likelihood(yaw, pose.theta);
+    p.log_weight[i] = particle_log_likelihood(pose, yaw) - temper * c.missing;
   }
 }
 
@@ -130,7 +143,11 @@ void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision,
                                            mode.tracked ? last_.pose : cluster.mean,
                                            refinement_prior(yaw, mode.tracked), mode.tracked ? 0.2F : 0.4F,
                                            mode.tracked ? 5 : 8);
-    if (refined.converged) mode.refined = refined;
+    if (refined.converged) {
+      mode.refined = refined;
+    } else {
+      mode.refined.line_log_likelihood = line_log_likelihood(map_, observation_, cluster.mean, 0.0F);
+    }
   }
   const Refinement& r = mode.refined;
   const Visibility look = check_visibility(field_, vision, r, range_for_visibility);

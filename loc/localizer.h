@@ -69,7 +69,8 @@ class Localizer {
 
   // Steps of the full model, in this order (full_model.cpp).
   float weigh_particles(const YawEvidence& yaw);
-  void inject_candidates(const YawEvidence& yaw, float share);
+  [[nodiscard]] float particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw) const;
+  void inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share);
   void refine_clusters(const VisionResult& vision, const YawEvidence& yaw);
   void look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode);
   [[nodiscard]] RefinementPrior refinement_prior(const YawEvidence& yaw, bool tracked) const;

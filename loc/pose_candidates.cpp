@@ -57,7 +57,7 @@ struct Search {
     const float score = line_log_likelihood(map, observation, pose, coarse_sigma) +
                         landmark_log_likelihood(field, observation, landmarks, pose, coarse_sigma) +
                         yaw_log_likelihood(yaw, pose.theta);
-    offer({pose, score, source}, out);
+    offer({pose, score, 0.0F, source}, out);
   }
 
   /// The pose that puts `seen` (robot's frame) onto `at` with heading `theta`.
@@ -190,6 +190,8 @@ bool dominant_direction(const Observation& observation, float& out) {
   return true;
 }
 
+}  // namespace
+
 void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
   for (std::size_t i = 1; i < list.size(); ++i) {
     const PoseCandidate c = list[i];
@@ -198,8 +200,6 @@ void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
     list[k] = c;
   }
 }
-
-}  // namespace
 
 void find_candidates(const Field& field, const DistanceField& map, const Observation& observation, Landmarks landmarks,
                      const YawEvidence& yaw, CandidateList& out) {

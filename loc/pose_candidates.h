@@ -13,6 +13,7 @@ enum class CandidateSource : std::uint8_t { junction, circle, grid };
 struct PoseCandidate {
   Pose2 pose;
   float score = 0.0F;  // nats, <= 0: coarse likelihood
+  float missing = 0.0F;  // nats that lines missing from the picture cost; the caller's to fill
   CandidateSource source = CandidateSource::grid;
 };
 
@@ -22,5 +23,8 @@ using CandidateList = StaticVector<PoseCandidate, max_pose_candidates>;
 /// The best candidates, best first, no two within 0.35 m and 20 degrees of each other. Empty when nothing is seen.
 void find_candidates(const Field& field, const DistanceField& map, const Observation& observation, Landmarks landmarks,
                      const YawEvidence& yaw, CandidateList& out);
+
+/// By score, for a caller that has changed the scores.
+void sort_best_first(CandidateList& list);
 
 }  // namespace touchline
