@@ -66,7 +66,7 @@ class Pipeline {
   bool configured_ = false;
   PipelineViews views_;
   Subsampler subsampler_;
-  FrameFifo fifo_{{}, {}};
+  FrameFifo fifo_;
   std::array<Held, max_fifo_depth> held_{};  // the newest first
   CarpetModel carpet_;
   SkeletonIndex index_;

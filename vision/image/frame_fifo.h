@@ -27,6 +27,8 @@ struct Yuv420Image {
 /// Use per frame: write into next_slot(), then push(), then mean_of_still().
 class FrameFifo {
  public:
+  /// No slots yet: only to be assigned to.
+  FrameFifo() = default;
   /// `slots`: 1 to max_fifo_depth images of one size. `mean` is of the same size; with one slot it is never touched and
   /// may be empty.
   FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean);
