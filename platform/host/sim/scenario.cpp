@@ -22,6 +22,12 @@ ImageEffects random_effects(Light light, Rng& rng) {
   return e;
 }
 
+/// From a point to the nearest goal post: no robot stands in one.
+float post_distance(const FieldDimensions& field, const FieldPoint& at) {
+  const float x = field.length * 0.5F - math::abs(at.x);
+  return length(x, field.goal_width * 0.5F - math::abs(at.y));
+}
+
 FrameView view_of(const std::vector<std::uint8_t>& pixels, const SimCameraModel& camera) {
   return {PixelFormat::rgb24, pixels.data(), camera.width, camera.height, camera.width * 3};
 }
@@ -79,7 +85,8 @@ const SimFrame& PoseScenario::frame(int index) {
     const float y = options_.field.width * 0.5F - inset;
     return FieldPoint{px, rng.uniform(-y, y)};
   };
-  const FieldPoint at = somewhere(0.0F);
+  FieldPoint at = somewhere(0.0F);
+  for (int tries = 0; tries < 16 && post_distance(options_.field, at) < 0.2F; ++tries) at = somewhere(0.0F);
   SimFrame f;
   f.index = index;
   f.truth = {at.x, at.y, rng.uniform(-math::pi, math::pi)};
