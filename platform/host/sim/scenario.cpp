@@ -107,7 +107,10 @@ const SimFrame& PoseScenario::frame(int index) {
     if (away < 0.45F) p = {at.x + (p.x - at.x) * 0.45F / away, at.y + (p.y - at.y) * 0.45F / away};
     robots.push_back({p.x, p.y, rng.uniform(-math::pi, math::pi)});
   }
-  scene_.set_moving(robots, rng.uniform(0.0F, math::two_pi), somewhere(0.1F));
+  // Drawn one after the other: the order of a call's arguments is the compiler's choice.
+  const float phase = rng.uniform(0.0F, math::two_pi);
+  const FieldPoint ball = somewhere(0.1F);
+  scene_.set_moving(robots, phase, ball);
   scene_.set_own_pose(f.truth, rng.uniform(0.0F, math::two_pi));
   const ImageEffects effects = random_effects(scene_.options().light, rng);
   renderer_.render(scene_, f.truth, f.true_camera, effects, rng.next_u32(), pixels_);
