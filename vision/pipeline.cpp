@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "platform/core/elementary.h"
+#include "vision/candidates.h"
 #include "vision/digestion.h"
 #include "vision/ground_mask.h"
 #include "vision/image/bit_ops.h"
@@ -174,7 +175,9 @@ void Pipeline::find_green_stage(VisionResult& result) {
   // What is white between green belongs to the field, or a wide line would cut it in two.
   const BitView& candidates = views_.mask(MaskId::candidates);
   clear(candidates);
-  find_white_spans(result.mean, views_.mask(MaskId::green), views_.mask(MaskId::white), result.line_widths, carpet_, candidates);
+  const SpanCounts spans = find_white_spans(result.mean, views_.mask(MaskId::green), views_.mask(MaskId::white),
+                                            result.line_widths, carpet_, candidates);
+  result.counts.rejected_candidates = {spans.too_wide, spans.too_thin, spans.not_white, spans.not_bright};
   const BitView& clean = views_.mask(MaskId::clean_green);
   copy(views_.mask(MaskId::green), clean);
   or_with(clean, candidates);
@@ -215,6 +218,14 @@ void Pipeline::find_candidates(VisionResult& result) {
   and_with(candidates, roi);
   find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates,
                     views_.mask(MaskId::scratch));
+  const BitView& edges = views_.mask(MaskId::edges);
+  const GrowResult grown =
+      find_edges(result.mean.y, roi, edge_thresholds(carpet_), memory_.canny, views_.mask(MaskId::scratch), edges);
+  if (!grown.finished) ++result.counts.dropped_edge_seeds;
+  const EdgeInput input{result.mean.y, edges, views_.mask(MaskId::green), views_.mask(MaskId::white), result.line_widths};
+  add_line_edges(input, candidates, result.counts.rejected_candidates);
+  and_with(candidates, roi);
+  result.edges = edges;
   result.candidates = candidates;
   result.counts.candidate_pixels = count(candidates);
 }

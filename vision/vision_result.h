@@ -2,9 +2,11 @@
 // Everything the chain made of one frame, by reference into the pipeline's storage: valid until the next frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
+#include "vision/candidates.h"
 #include "vision/features.h"
 #include "vision/graph.h"
 #include "vision/image/bit_image.h"
@@ -23,10 +25,11 @@ struct VisionCounts {
   int line_pixels = 0;
   int skeleton_pixels = 0;
   int major_nodes = 0;
+  std::array<int, candidate_rejections> rejected_candidates{};  // by CandidateRejection
   // What found no room; the partial result is valid.
   int dropped_contour_points = 0;
   int dropped_blobs = 0;
-  int dropped_edge_seeds = 0;  // Canny hysteresis stack
+  int dropped_edge_seeds = 0;  // 1: Canny's hysteresis reached its bound of sweeps
   int dropped_nodes = 0;
   int dropped_edges = 0;
   int dropped_points = 0;
@@ -47,6 +50,7 @@ struct VisionResult {
   std::span<const GridPoint> contour;  // of the largest blob, corner by corner
   std::span<const GridPoint> hull;     // of the contour
   ConstBitView roi;
+  ConstBitView edges;       // Canny's, all of them
   ConstBitView candidates;  // white search united with Canny
   ConstBitView line_mask;
   ConstBitView skeleton;

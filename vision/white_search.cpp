@@ -8,16 +8,13 @@
 #include <cstring>
 
 #include "vision/image/bit_ops.h"
+#include "vision/line_extent.h"
 #include "vision/image/morphology.h"
 
 namespace touchline {
 namespace {
 
 constexpr std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
-
-const LineWidth& width_at(LineWidthView widths, int x, int y) {
-  return widths.at(std::clamp(x / width_block_px, 0, widths.width - 1), std::clamp(y / width_block_px, 0, widths.height - 1));
-}
 
 /// First x >= from with bit == value; width when there is none.
 int next_bit(const BitWord* row, int width, int from, bool value) {
@@ -51,22 +48,6 @@ bool brighter_than_end(const std::uint8_t* at, std::ptrdiff_t outward, int lengt
   const std::int32_t line = at[-outward * inner] + at[-outward * std::min(inner + 1, length - 1)];
   const std::int32_t green = at[outward] + at[outward * outer];
   return line > green + green / 16 + noise / 8;
-}
-
-/// Pixels that a line's extent may have: a quarter more for the roughness of the table, two and a half for the blur of both ends.
-constexpr int with_tolerance(int sixteenths) { return (sixteenths * 5 / 4 + 40) / 16; }
-
-/// A strip that is `length` pixels along the scan and `other` across the scan through the same pixel has the slope
-/// s = length / other; its extent along the scan is the root of across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2.
-bool wider_than_slope_allows(int length, int other, std::uint16_t across, std::uint16_t other_across, std::uint16_t slanted) {
-  const std::int64_t a = std::int64_t{across} * across;
-  const std::int64_t b = std::int64_t{other_across} * other_across;
-  const std::int64_t mixed = std::max<std::int64_t>(std::int64_t{slanted} * slanted - a - b, 0);
-  const std::int64_t n = std::min(length, other);
-  const std::int64_t d = std::max(other, 1);
-  const std::int64_t extent2 = a + mixed * n / d + b * n * n / (d * d);        // 2^-8 square pixels
-  const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
-  return least * least > 25 * extent2;
 }
 
 GapVerdict judge(const Gap& gap, const LineWidth& width, std::uint16_t across, const CarpetModel& carpet) {
@@ -145,7 +126,7 @@ void search_row(SpanSearch& search, int y) {
     GapVerdict verdict = judge(gap, expected, expected.across_row, search.carpet);
     if (verdict == GapVerdict::line) {
       const int other = column_extent(search.green, (first + end) / 2, y, gap.length * slope_reach);
-      if (wider_than_slope_allows(gap.length, other, expected.across_row, expected.across_column, expected.slanted)) {
+      if (wider_than_slope_allows(gap.length, std::min(gap.length, other), other, expected.across_row, expected.across_column, expected.slanted)) {
         verdict = GapVerdict::too_wide;
       }
     }
@@ -169,7 +150,7 @@ void close_gap(SpanSearch& search, int x, int first, int end) {
   GapVerdict verdict = judge(gap, expected, expected.across_column, search.carpet);
   if (verdict == GapVerdict::line) {
     const int other = row_extent(search.green, x, (first + end) / 2, gap.length * slope_reach);
-    if (wider_than_slope_allows(gap.length, other, expected.across_column, expected.across_row, expected.slanted)) {
+    if (wider_than_slope_allows(gap.length, std::min(gap.length, other), other, expected.across_column, expected.across_row, expected.slanted)) {
       verdict = GapVerdict::too_wide;
     }
   }

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/candidates.h"
+
+#include <algorithm>
+
+#include "vision/image/bit_ops.h"
+#include "vision/line_extent.h"
+
+namespace touchline {
+namespace {
+
+constexpr int side_reach = 3;  // pixels from an edge to where the blur has ended
+
+constexpr int magnitude(int v) { return v < 0 ? -v : v; }
+
+struct Gradient {
+  int x = 0, y = 0;
+};
+/// Sobel, at the border with the outermost pixels repeated.
+Gradient gradient_at(ImageView<const std::uint8_t> luma, int x, int y) {
+  const int left = std::max(x - 1, 0);
+  const int right = std::min(x + 1, luma.width - 1);
+  const std::uint8_t* above = luma.row(std::max(y - 1, 0));
+  const std::uint8_t* here = luma.row(y);
+  const std::uint8_t* below = luma.row(std::min(y + 1, luma.height - 1));
+  return {above[right] + 2 * here[right] + below[right] - above[left] - 2 * here[left] - below[left],
+          below[left] + 2 * below[x] + below[right] - above[left] - 2 * above[x] - above[right]};
+}
+
+enum class EdgeVerdict : std::uint8_t { line, without_white, without_green, of_wide };
+
+/// An edge pixel, and the step along the row or the column (whichever is nearer to the gradient) to its bright side.
+struct Edge {
+  int x, y;
+  int dx, dy;
+  int rise, run;  // slope of the edge against the scan's normal
+};
+
+Edge edge_at(ImageView<const std::uint8_t> luma, int x, int y) {
+  const Gradient g = gradient_at(luma, x, y);
+  if (magnitude(g.x) >= magnitude(g.y)) return {x, y, g.x >= 0 ? 1 : -1, 0, magnitude(g.y), magnitude(g.x)};
+  return {x, y, 0, g.y >= 0 ? 1 : -1, magnitude(g.x), magnitude(g.y)};
+}
+
+/// `length` is set to the pixels from the edge to the green on the other side.
+EdgeVerdict judge(const EdgeInput& input, const Edge& e, int& length) {
+  bool green_behind = false;
+  for (int k = 1; k <= side_reach; ++k) green_behind = green_behind || input.green.get(e.x - k * e.dx, e.y - k * e.dy);
+  if (!green_behind) return EdgeVerdict::without_green;
+
+  const LineWidth& width = width_at(input.widths, e.x, e.y);
+  const int limit = with_tolerance(width.slanted) + side_reach;
+  int white = 0;
+  for (length = 1; length <= limit; ++length) {
+    const int x = e.x + length * e.dx;
+    const int y = e.y + length * e.dy;
+    if (input.white.get(x, y)) {
+      ++white;
+    } else if (white == 0 && length >= side_reach) {
+      return EdgeVerdict::without_white;
+    } else if (white > 0 && input.green.get(x, y)) {
+      break;
+    }
+  }
+  if (white == 0) return EdgeVerdict::without_white;
+  const std::uint16_t along = e.dx != 0 ? width.across_row : width.across_column;
+  const std::uint16_t other = e.dx != 0 ? width.across_column : width.across_row;
+  if (length > limit || wider_than_slope_allows(length, e.rise, e.run, along, other, width.slanted)) return EdgeVerdict::of_wide;
+  return EdgeVerdict::line;
+}
+
+}  // namespace
+
+const char* to_string(CandidateRejection reason) {
+  switch (reason) {
+    case CandidateRejection::gap_too_wide: return "gap_too_wide";
+    case CandidateRejection::gap_too_thin: return "gap_too_thin";
+    case CandidateRejection::gap_not_white: return "gap_not_white";
+    case CandidateRejection::gap_not_bright: return "gap_not_bright";
+    case CandidateRejection::edge_without_white: return "edge_without_white";
+    case CandidateRejection::edge_without_green: return "edge_without_green";
+    case CandidateRejection::edge_of_wide: return "edge_of_wide";
+    case CandidateRejection::count: break;
+  }
+  return "unknown reason";
+}
+
+CannyThresholds edge_thresholds(const CarpetModel& carpet) {
+  // Binomial and Sobel give noise of sigma a gradient of 1.65 sigma; carpet.noise is in 1/16: 4 * 1.65 / 16 = 0.41.
+  const int low = std::clamp(carpet.noise * 41 / 100, 12, 600);
+  return {low, 2 * low};
+}
+
+int add_line_edges(const EdgeInput& input, BitView lines, std::array<int, candidate_rejections>& rejected) {
+  const auto count_rejection = [&rejected](CandidateRejection reason) { ++rejected[static_cast<std::size_t>(reason)]; };
+  int taken = 0;
+  for_each_set_bit(input.edges, [&](int x, int y) {
+    const Edge edge = edge_at(input.luma, x, y);
+    int length = 0;
+    switch (judge(input, edge, length)) {
+      case EdgeVerdict::line:
+        ++taken;
+        // Where white search was already, the edge adds nothing but roughness.
+        if (lines.get(x + edge.dx, y + edge.dy) || lines.get(x + 2 * edge.dx, y + 2 * edge.dy)) break;
+        for (int k = 0; k < length; ++k) lines.set(x + k * edge.dx, y + k * edge.dy, true);
+        break;
+      case EdgeVerdict::without_white: count_rejection(CandidateRejection::edge_without_white); break;
+      case EdgeVerdict::without_green: count_rejection(CandidateRejection::edge_without_green); break;
+      case EdgeVerdict::of_wide: count_rejection(CandidateRejection::edge_of_wide); break;
+    }
+  });
+  return taken;
+}
+
+}  // namespace touchline
