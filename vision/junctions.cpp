@@ -4,71 +4,109 @@
 namespace touchline {
 namespace {
 
-// Field lines meet at right angles. A degree or two come from tilt, the rest of the tolerance from the directions'
-// sigma.
-constexpr float right_angle_tolerance = radians(14.0F);
-constexpr float max_angle_tolerance = radians(32.0F);
-// The skeleton of a line that ends at another stops within half that line's width of its middle, and thinning pulls
-// corners of wide lines in by as much again.
-constexpr float reach_widths = 1.2F;
-constexpr float reach_px = 3.0F;
+// Field lines meet at right angles; tilt and an uneven carpet turn them by a degree or two on the ground.
+constexpr float right_angle_sigma = radians(2.0F);
+constexpr float right_angle_tolerance = radians(12.0F);
+constexpr float max_angle_tolerance = radians(55.0F);
+// A stretch ends where thinning bends the skeleton toward a fork. From there to the crossing the line has to be white.
+constexpr float max_gap_px = 25.0F;
+constexpr float max_gap_widths = 6.0F;
+constexpr float near_px = 3.0F;
+constexpr float near_widths = 0.5F;
 // A branch is a line when it goes on for longer than it is wide; marks and spurs are not.
-constexpr float min_branch_widths = 1.8F;
-constexpr float min_branch_px = 4.0F;
-constexpr float same_branch = radians(30.0F);
-// Beyond a missing branch the carpet has to be seen, this far from the junction.
-constexpr float beyond_widths = 1.5F;
-constexpr float beyond_px = 3.0F;
-constexpr float sigma_px = 1.0F;             // camera pixels, of the fitted lines' crossing
+constexpr float branch_widths = 1.5F;
+constexpr float branch_px = 4.0F;
+constexpr float present = 0.8F;  // part of a branch that is white
+constexpr float absent = 0.5F;
+// Two crossings nearer than this are one.
+constexpr float same_px = 4.0F;
+constexpr float same_widths = 1.5F;
+// A line is followed for branches when its own direction is known this well.
+constexpr float scan_sigma = radians(3.0F);
+constexpr float scan_px = 10.0F;    // working pixels, at least
+constexpr int scan_knot_px = 8;     // the lens is asked this often
+constexpr int max_scan_knots = 64;  // a line across the largest working image
+constexpr float scan_beyond_px = 5.0F;
+constexpr float scan_beyond_widths = 1.0F;
+constexpr float stem_sigma = radians(4.0F);
+constexpr float max_stem_widths = 2.2F;
+constexpr float max_stem_px = 4.0F;
+constexpr float merge_sigmas = 1.3F;         // candidates that are known as well as the best count for the place
+constexpr float sigma_px = 1.0F;             // camera pixels, of the lines' crossing
 constexpr float sigma_tilt = radians(0.5F);  // an IMU's error
 
 float angle_between(const GroundPoint& a, const GroundPoint& b) {  // of two directions of lines, 0..pi/2
   return math::atan2(math::abs(a.x * b.y - a.y * b.x), math::abs(a.x * b.x + a.y * b.y));
 }
+/// Distance of a point from a segment's line, > 0 to its left.
+float across(const LineSegment& s, const GroundPoint& p) {
+  return s.direction.x * (p.y - s.end[0].y) - s.direction.y * (p.x - s.end[0].x);
+}
+float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
 
 class JunctionFinder {
  public:
-  JunctionFinder(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const CarpetView& carpet,
+  JunctionFinder(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const FieldView& field,
                  const JunctionParameters& parameters, JunctionWork& work, Features& features)
       : lines_(lines),
         circle_(circle),
         rays_(rays),
-        carpet_(carpet),
+        field_(field),
         parameters_(parameters),
         work_(work),
         features_(features) {}
 
-  void pair_up();
   void cut_circle();
+  void pair_up();
   void classify_all();
 
  private:
-  struct Reach {
-    float before = 0.0F;  // metres of segment on the near side of the crossing, towards end[0]
-    float after = 0.0F;   // and towards end[1]
-    bool reaches = false;
-  };
+  enum class Way : std::uint8_t { line, carpet, hidden };
+
   void cut_circle(float side);
   [[nodiscard]] bool arc_seen(float angle, float side) const;
   [[nodiscard]] bool on_circle(const GroundPoint& p) const;
-  void consider(std::size_t i, std::size_t k);
-  [[nodiscard]] Reach reach(const LineSegment& s, const GroundPoint& at, const Vec3& ray) const;
-  void add_branches(JunctionCandidate& c, std::size_t segment, const Reach& r);
-  void add_branch(JunctionCandidate& c, const JunctionBranch& b);
-  JunctionCandidate* candidate_at(const Vec3& ray, const GroundPoint& at);
+  void consider(const LineSegment& a, const LineSegment& b);
+  [[nodiscard]] bool reaches(const LineSegment& s, const GroundPoint& direction, const GroundPoint& at) const;
   [[nodiscard]] float metres_per_px(const GroundPoint& p, float direction) const;
   [[nodiscard]] float min_branch(const GroundPoint& p, float direction) const;
-  void refine(JunctionCandidate& c) const;
-  void classify(JunctionCandidate& c);
-  [[nodiscard]] bool carpet_beyond(const JunctionCandidate& c, float direction) const;
-  void reject(const JunctionCandidate& c, JunctionRejection reason);
-  void accept(const JunctionCandidate& c, JunctionType type, const int* order, float off_angle);
-  [[nodiscard]] PixelPoint camera_pixel(const GroundPoint& p) const;
+  struct Sight {
+    float white = 0.0F;   // parts of the way: on a line, or beside one by a pixel
+    float middle = 0.0F;  // on a line
+    float carpet = 0.0F;  // on carpet or on a line
+    bool seen = true;     // all of it lies in the picture
+  };
+  [[nodiscard]] Sight look(const GroundPoint& from, const GroundPoint& to) const;
+  [[nodiscard]] Way way(const JunctionCandidate& c, float direction) const;
+  void scan(const LineSegment& s);
+  void scan_side(const LineSegment& s, const GroundPoint& out, float direction);
+  /// Places along a line where the way square to it is white. The mask fills sharp corners a little; what is white all
+  /// the way counts most.
+  struct Run {
+    float begin = 0.0F, end = 0.0F, sum = 0.0F, weight = 0.0F;
+    void add(float t, float white) {
+      const float w = math::square(white - present + 0.05F);
+      if (!(weight > 0.0F)) begin = t;
+      end = t;
+      sum += w * t;
+      weight += w;
+    }
+  };
+  struct Fence {
+    WorkPoint from, to;
+  };
+  bool make_fence(const GroundPoint& p, const GroundPoint& out, float direction, Fence& fence) const;
+  [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f) const;
+  void add_stem(const LineSegment& s, const Run& run, float step, float direction);
+  void merge(std::size_t best);
+  void classify(const JunctionCandidate& c);
+  void reject(const JunctionCandidate& c, int branches, JunctionRejection reason);
+  void accept(const JunctionCandidate& c, JunctionType type, const float* directions, int count, float quality);
 
   const LineSegments& lines_;
   const SeenCircle* circle_;
   const WorkRays& rays_;
-  const CarpetView& carpet_;
+  const FieldView& field_;
   const JunctionParameters& parameters_;
   JunctionWork& work_;
   Features& features_;
@@ -113,23 +151,19 @@ void JunctionFinder::cut_circle(float side) {
   const float across = math::clamp(offset, -0.5F * r, 0.5F * r);
   const float along = math::sqrt(r * r - across * across) - r;
   JunctionCandidate c;
+  c.heading = heading;
+  c.sigma = radians(3.0F);
   c.ground = {guess.x + along * out.x - across * out.y, guess.y + along * out.y + across * out.x};
   const float angle = math::atan2(c.ground.y - circle.centre.y, c.ground.x - circle.centre.x);
   const int ways =
       (inside ? 1 : 0) + (outside ? 1 : 0) + (arc_seen(angle, 1.0F) ? 1 : 0) + (arc_seen(angle, -1.0F) ? 1 : 0);
-  for (int k = 0; k < 4; ++k) {
-    JunctionBranch b;
-    b.direction = wrap_angle(heading + static_cast<float>(k) * math::half_pi);
-    b.length = r * static_cast<float>(ways) / 4.0F;
-    c.branches.push_back(b);
-  }
-  if (ways < 3) return reject(c, JunctionRejection::branch_too_short);
+  if (ways < 3) return reject(c, ways, JunctionRejection::branch_too_short);
   const CameraPose& pose = rays_.projection().pose();
-  if (math::hypot(c.ground.x - pose.x, c.ground.y - pose.y) > parameters_.max_range_m)
-    return reject(c, JunctionRejection::too_far);
-  PixelPoint pixel;
-  if (!rays_.projection().pixel(c.ground, pixel)) return reject(c, JunctionRejection::no_ground);
-  classify(c);
+  if (distance(c.ground, {pose.x, pose.y}) > parameters_.max_range_m)
+    return reject(c, ways, JunctionRejection::too_far);
+  float directions[4];
+  for (int k = 0; k < 4; ++k) directions[k] = wrap_angle(heading + static_cast<float>(k) * math::half_pi);
+  accept(c, JunctionType::x, directions, 4, 0.25F * static_cast<float>(ways));
 }
 
 /// Whether most of the arc from 10 to 35 degrees beside an angle about the centre was seen.
@@ -143,20 +177,29 @@ bool JunctionFinder::arc_seen(float angle, float side) const {
   return seen >= 4;
 }
 
+/// On the centre circle or inside it, where the half line is alone.
 bool JunctionFinder::on_circle(const GroundPoint& p) const {
   if (circle_ == nullptr) return false;
   const GroundPoint& centre = circle_->observation.centre;
   const float off = math::hypot(p.x - centre.x, p.y - centre.y) - circle_->radius_m;
   const float outwards = math::atan2(p.y - centre.y, p.x - centre.x);
-  return math::abs(off) < 1.5F * parameters_.line_width_m + 2.0F * metres_per_px(p, outwards);
+  return off < 1.5F * parameters_.line_width_m + 2.0F * metres_per_px(p, outwards);
 }
 
 void JunctionFinder::pair_up() {
   const std::size_t count = lines_.segments.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (lines_.segments[i].on_circle) continue;
+    const LineSegment& a = lines_.segments[i];
+    if (a.on_circle) continue;
+    if (!a.is_short && a.sigma < scan_sigma && static_cast<float>(a.points) >= scan_px) scan(a);
     for (std::size_t k = 0; k < i; ++k) {
-      if (!lines_.segments[k].on_circle) consider(k, i);
+      const LineSegment& b = lines_.segments[k];
+      if (b.on_circle) continue;
+      if (a.sigma < b.sigma) {
+        consider(a, b);
+      } else {
+        consider(b, a);
+      }
     }
   }
 }
@@ -176,239 +219,296 @@ float JunctionFinder::metres_per_px(const GroundPoint& p, float direction) const
 }
 
 float JunctionFinder::min_branch(const GroundPoint& p, float direction) const {
-  return math::max(min_branch_widths * parameters_.line_width_m, min_branch_px * metres_per_px(p, direction));
+  return math::max(branch_widths * parameters_.line_width_m, branch_px * metres_per_px(p, direction));
 }
 
-JunctionFinder::Reach JunctionFinder::reach(const LineSegment& s, const GroundPoint& at, const Vec3& ray) const {
-  const float t = (at.x - s.end[0].x) * s.direction.x + (at.y - s.end[0].y) * s.direction.y;
-  Reach r;
-  r.before = t;
-  r.after = s.length - t;
-  const float outside = math::max(-r.before, -r.after);
-  if (outside <= reach_widths * parameters_.line_width_m) {
-    r.reaches = true;
-  } else {
-    const Vec3& end = r.before < r.after ? s.end_ray[0] : s.end_ray[1];
-    const Vec3 gap = cross(end, ray);
-    r.reaches = dot(gap, gap) < math::square(reach_px * rays_.radians_per_pixel());
+/// What lies on the way between two ground points, a sample a working pixel.
+JunctionFinder::Sight JunctionFinder::look(const GroundPoint& from, const GroundPoint& to) const {
+  Sight sight;
+  WorkPoint a, b;
+  if (!rays_.work_point(from, 0.0F, a) || !rays_.work_point(to, 0.0F, b)) return {0.0F, 0.0F, 0.0F, false};
+  const float apart = math::max(math::abs(b.u - a.u), math::abs(b.v - a.v));
+  const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
+  int white = 0, middle = 0, carpet = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const float t = static_cast<float>(i) / static_cast<float>(steps);
+    const float u = a.u + t * (b.u - a.u);
+    const float v = a.v + t * (b.v - a.v);
+    if (!(u >= 0.0F && v >= 0.0F)) return {0.0F, 0.0F, 0.0F, false};
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    if (x >= rays_.work_width() || y >= rays_.work_height()) return {0.0F, 0.0F, 0.0F, false};
+    if (field_.roi.words != nullptr && !field_.roi.get(x, y)) sight.seen = false;
+    // The mask of a thin line may lie a pixel beside its middle.
+    const bool line = field_.lines.get(x, y) || field_.lines.get(x - 1, y) || field_.lines.get(x + 1, y) ||
+                      field_.lines.get(x, y - 1) || field_.lines.get(x, y + 1);
+    white += line ? 1 : 0;
+    const bool strict = field_.lines.get(x, y);
+    middle += strict ? 1 : 0;
+    carpet += strict || field_.green.get(x, y) ? 1 : 0;
   }
-  return r;
+  const float all = static_cast<float>(steps + 1);
+  sight.white = static_cast<float>(white) / all;
+  sight.middle = static_cast<float>(middle) / all;
+  sight.carpet = static_cast<float>(carpet) / all;
+  return sight;
 }
 
-void JunctionFinder::consider(std::size_t i, std::size_t k) {
-  const LineSegment& a = lines_.segments[i];
-  const LineSegment& b = lines_.segments[k];
+/// Whether a stretch goes up to a point on its line: it covers it, or nearly, or the line is white in between.
+bool JunctionFinder::reaches(const LineSegment& s, const GroundPoint& direction, const GroundPoint& at) const {
+  const float before = (s.end[0].x - at.x) * direction.x + (s.end[0].y - at.y) * direction.y;
+  const float after = (s.end[1].x - at.x) * direction.x + (s.end[1].y - at.y) * direction.y;
+  if (before * after <= 0.0F) return true;
+  const bool first = math::abs(before) < math::abs(after);
+  const float gap = math::abs(first ? before : after);
+  const float heading = math::atan2(direction.y, direction.x);
+  const float px = metres_per_px(at, heading);
+  if (gap <= math::max(near_widths * parameters_.line_width_m, near_px * px)) return true;
+  if (gap > math::min(max_gap_px * px, max_gap_widths * parameters_.line_width_m + near_px * px)) return false;
+  return look(first ? s.end[0] : s.end[1], at).white >= present;
+}
+
+/// `a` is the one whose direction is known better. A short `b` tells where it is better than how it is turned, and
+/// lines of a field are at right angles: its direction is the mean of both, weighted by what they are good for.
+void JunctionFinder::consider(const LineSegment& a, const LineSegment& b) {
   const float angle = angle_between(a.direction, b.direction);
-  const float sigma = math::sqrt(a.sigma * a.sigma + b.sigma * b.sigma);
-  const float tolerance = math::min(right_angle_tolerance + 2.0F * sigma, max_angle_tolerance);
-  const bool right = angle > math::half_pi - tolerance;
-  if (angle < radians(20.0F)) return;  // nearly one line: where they cross says nothing
-  Vec3 ray = normalized(cross(a.normal, b.normal));
-  if (ray.z > 0.0F) ray = {-ray.x, -ray.y, -ray.z};
-  GroundPoint at;
-  if (!rays_.projection().intersect_ground(ray, at)) return;
-  const Reach reach_a = reach(a, at, ray);
-  const Reach reach_b = reach(b, at, ray);
-  if (!reach_a.reaches || !reach_b.reaches) return;
-  JunctionCandidate probe;
-  probe.ray = ray;
-  probe.ground = at;
+  if (angle < radians(30.0F)) return;  // nearly one line: where they cross says nothing
+  GroundPoint square{-a.direction.y, a.direction.x};
+  if (square.x * b.direction.x + square.y * b.direction.y < 0.0F) square = {-square.x, -square.y};
+  const float off = math::atan2(square.x * b.direction.y - square.y * b.direction.x,
+                                square.x * b.direction.x + square.y * b.direction.y);
+  const float sigma_b = b.sigma;
+  const float tolerance = math::min(right_angle_tolerance + 2.0F * sigma_b, max_angle_tolerance);
+  const float prior = right_angle_sigma * right_angle_sigma + a.sigma * a.sigma;
+  const bool right = math::abs(off) <= tolerance;
+  const float turn = right ? off * prior / (prior + sigma_b * sigma_b) : off;
+  const float c = math::cos(turn);
+  const float s = math::sin(turn);
+  const GroundPoint direction_b{c * square.x - s * square.y, s * square.x + c * square.y};
+  // A long one is taken from its end beside the crossing, where what its direction is off matters least.
+  const float side[2] = {math::abs(across(a, b.end[0])), math::abs(across(a, b.end[1]))};
+  const GroundPoint middle = b.is_short
+                                 ? GroundPoint{0.5F * (b.end[0].x + b.end[1].x), 0.5F * (b.end[0].y + b.end[1].y)}
+                                 : b.end[side[0] < side[1] ? 0 : 1];
+  const float det = a.direction.x * direction_b.y - a.direction.y * direction_b.x;
+  const float t =
+      ((middle.x - a.end[0].x) * direction_b.y - (middle.y - a.end[0].y) * direction_b.x) / det;  // det is near +-1
+  JunctionCandidate found;
+  found.ground = {a.end[0].x + t * a.direction.x, a.end[0].y + t * a.direction.y};
+  found.heading = math::atan2(a.direction.y, a.direction.x);
+  found.other = math::atan2(direction_b.y, direction_b.x);
+  found.off_angle = math::abs(off);
+  found.sigma = math::sqrt(a.sigma * a.sigma + sigma_b * sigma_b);
+  if (!reaches(a, a.direction, found.ground) || !reaches(b, direction_b, found.ground)) return;
   if (!right) {
-    add_branches(probe, i, reach_a);
-    add_branches(probe, k, reach_b);
-    if (probe.branches.size() >= 2)
-      reject(probe, a.chain == b.chain ? JunctionRejection::curved : JunctionRejection::bad_angles);
-    return;
+    return reject(found, 2, a.chain == b.chain ? JunctionRejection::curved : JunctionRejection::bad_angles);
   }
-  JunctionCandidate* c = candidate_at(ray, at);
-  if (c == nullptr) return;
-  add_branches(*c, i, reach_a);
-  add_branches(*c, k, reach_b);
+  work_.candidates.push_back(found);
 }
 
-JunctionCandidate* JunctionFinder::candidate_at(const Vec3& ray, const GroundPoint& at) {
-  for (JunctionCandidate& c : work_.candidates) {
-    const Vec3 off = cross(c.ray, ray);
-    const float apart = math::hypot(c.ground.x - at.x, c.ground.y - at.y);
-    if (dot(off, off) < math::square(reach_px * rays_.radians_per_pixel()) || apart < parameters_.line_width_m)
-      return &c;
+/// Follows a line and looks square to it on both sides: where the way is white for a short piece of the line, a branch
+/// begins. Thinning makes nothing useful of a branch that is hardly longer than wide; the mask still shows it.
+void JunctionFinder::scan(const LineSegment& s) {
+  const float heading = math::atan2(s.direction.y, s.direction.x);
+  for (const float side : {1.0F, -1.0F}) {
+    const GroundPoint out{-side * s.direction.y, side * s.direction.x};
+    scan_side(s, out, wrap_angle(heading + side * math::half_pi));
   }
+}
+
+void JunctionFinder::scan_side(const LineSegment& s, const GroundPoint& out, float direction) {
+  const float heading = math::atan2(s.direction.y, s.direction.x);
+  const auto along = [&](float t) {
+    return GroundPoint{s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
+  };
+  const auto beyond = [&](const GroundPoint& end) {
+    return scan_beyond_widths * parameters_.line_width_m + scan_beyond_px * metres_per_px(end, heading);
+  };
+  float t = -beyond(s.end[0]);
+  const float last = s.length + beyond(s.end[1]);
+  Run run;
+  for (int knot = 0; knot < max_scan_knots && t < last; ++knot) {
+    // Between knots a few pixels apart the lens is as good as straight.
+    const GroundPoint p = along(t);
+    const float step = metres_per_px(p, heading);
+    const float knot_end = math::min(t + static_cast<float>(scan_knot_px) * step, last);
+    Fence a, b;
+    const bool seen = make_fence(p, out, direction, a) && make_fence(along(knot_end), out, direction, b);
+    for (int i = 0; i < scan_knot_px; ++i) {
+      const float f = static_cast<float>(i) / static_cast<float>(scan_knot_px);
+      const float here = t + f * (knot_end - t);
+      const float white = seen ? white_part(a, b, f) : 0.0F;
+      if (white >= present) {
+        run.add(here, white);
+      } else if (run.weight > 0.0F) {
+        add_stem(s, run, step, direction);
+        run = {};
+      }
+    }
+    t = knot_end;
+  }
+}
+
+/// The way square to a line, from its edge out, in working pixels.
+bool JunctionFinder::make_fence(const GroundPoint& p, const GroundPoint& out, float direction, Fence& fence) const {
+  const float from = 0.5F * parameters_.line_width_m + metres_per_px(p, direction);
+  const float to = from + min_branch(p, direction);
+  return rays_.work_point({p.x + from * out.x, p.y + from * out.y}, 0.0F, fence.from) &&
+         rays_.work_point({p.x + to * out.x, p.y + to * out.y}, 0.0F, fence.to);
+}
+
+/// How much of the way at the part `f` between two fences is white.
+float JunctionFinder::white_part(const Fence& a, const Fence& b, float f) const {
+  const auto between = [](float x, float y, float g) { return x + g * (y - x); };
+  const float u0 = between(a.from.u, b.from.u, f), v0 = between(a.from.v, b.from.v, f);
+  const float u1 = between(a.to.u, b.to.u, f), v1 = between(a.to.v, b.to.v, f);
+  const float apart = math::max(math::abs(u1 - u0), math::abs(v1 - v0));
+  const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
+  int white = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const float g = static_cast<float>(i) / static_cast<float>(steps);
+    const float x = between(u0, u1, g);
+    const float y = between(v0, v1, g);
+    white += x >= 0.0F && y >= 0.0F && field_.lines.get(static_cast<int>(x), static_cast<int>(y)) ? 1 : 0;
+  }
+  return static_cast<float>(white) / static_cast<float>(steps + 1);
+}
+
+void JunctionFinder::add_stem(const LineSegment& s, const Run& run, float step, float direction) {
+  const float t = run.sum / run.weight;
   JunctionCandidate c;
-  c.ray = ray;
-  c.ground = at;
-  return work_.candidates.push_back(c) ? &work_.candidates.back() : nullptr;
+  c.ground = {s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
+  c.heading = math::atan2(s.direction.y, s.direction.x);
+  c.other = direction;
+  c.sigma = math::sqrt(s.sigma * s.sigma + stem_sigma * stem_sigma);
+  const float widest = max_stem_widths * parameters_.line_width_m + max_stem_px * metres_per_px(c.ground, c.heading);
+  if (run.end - run.begin + step > widest || !reaches(s, s.direction, c.ground)) return;
+  work_.candidates.push_back(c);
 }
 
-void JunctionFinder::add_branches(JunctionCandidate& c, std::size_t segment, const Reach& r) {
-  const LineSegment& s = lines_.segments[segment];
-  JunctionBranch b;
-  b.sigma = s.sigma;
-  b.curved = s.on_circle;
-  b.segment = static_cast<std::uint16_t>(segment);
-  const float forward = math::atan2(s.direction.y, s.direction.x);
-  b.direction = forward;
-  b.length = r.after;
-  if (b.length >= min_branch(c.ground, b.direction)) add_branch(c, b);
-  b.direction = wrap_angle(forward + math::pi);
-  b.length = r.before;
-  if (b.length >= min_branch(c.ground, b.direction)) add_branch(c, b);
-}
-
-/// One branch a direction: the longest.
-void JunctionFinder::add_branch(JunctionCandidate& c, const JunctionBranch& b) {
-  for (JunctionBranch& old : c.branches) {
-    if (math::abs(angle_difference(old.direction, b.direction)) > same_branch) continue;
-    if (b.length > old.length) old = b;
-    return;
+/// Takes up all candidates at the place of the best: their weighted mean.
+void JunctionFinder::merge(std::size_t best) {
+  JunctionCandidate& c = work_.candidates[best];
+  const float radius = math::max(same_widths * parameters_.line_width_m, 0.0F);
+  GroundPoint sum;
+  float weights = 0.0F;
+  for (JunctionCandidate& other : work_.candidates) {
+    if (other.taken) continue;
+    const float towards = math::atan2(other.ground.y - c.ground.y, other.ground.x - c.ground.x);
+    const float apart = distance(other.ground, c.ground);
+    if (apart > math::max(radius, same_px * metres_per_px(c.ground, towards))) continue;
+    other.taken = true;
+    if (other.sigma > merge_sigmas * c.sigma) continue;
+    const float w = 1.0F / math::square(other.sigma + radians(1.0F));
+    sum.x += w * other.ground.x;
+    sum.y += w * other.ground.y;
+    weights += w;
   }
-  c.branches.push_back(b);
-}
-
-/// The ray nearest to all branches' planes: least squares about the candidate's.
-void JunctionFinder::refine(JunctionCandidate& c) const {
-  const Vec3 u = normalized(cross(c.ray, Vec3{0.0F, 0.0F, 1.0F}));
-  const Vec3 v = cross(c.ray, u);
-  float uu = 0.0F, uv = 0.0F, vv = 0.0F, ub = 0.0F, vb = 0.0F;
-  for (const JunctionBranch& b : c.branches) {
-    const Vec3& n = lines_.segments[b.segment].normal;
-    const float nu = dot(n, u);
-    const float nv = dot(n, v);
-    const float off = dot(n, c.ray);
-    const float weight = b.curved ? 0.1F : 1.0F;
-    uu += weight * nu * nu;
-    uv += weight * nu * nv;
-    vv += weight * nv * nv;
-    ub -= weight * nu * off;
-    vb -= weight * nv * off;
-  }
-  const float det = uu * vv - uv * uv;
-  if (!(det > 1.0e-3F)) return;
-  const float du = (ub * vv - vb * uv) / det;
-  const float dv = (vb * uu - ub * uv) / det;
-  const Vec3 ray =
-      normalized({c.ray.x + du * u.x + dv * v.x, c.ray.y + du * u.y + dv * v.y, c.ray.z + du * u.z + dv * v.z});
-  GroundPoint at;
-  if (!rays_.projection().intersect_ground(ray, at)) return;
-  c.ray = ray;
-  c.ground = at;
-}
-
-PixelPoint JunctionFinder::camera_pixel(const GroundPoint& p) const {
-  PixelPoint pixel;
-  (void)rays_.projection().pixel(p, pixel);
-  return pixel;
-}
-
-bool JunctionFinder::carpet_beyond(const JunctionCandidate& c, float direction) const {
-  const float first = beyond_widths * parameters_.line_width_m + beyond_px * metres_per_px(c.ground, direction);
-  for (int step = 0; step < 2; ++step) {
-    const float d = first * (step == 0 ? 1.0F : 1.4F);
-    const GroundPoint p{c.ground.x + d * math::cos(direction), c.ground.y + d * math::sin(direction)};
-    WorkPoint w;
-    if (!rays_.work_point(p, 0.0F, w) || !(w.u >= 0.0F && w.v >= 0.0F)) return false;
-    const int x = static_cast<int>(w.u);
-    const int y = static_cast<int>(w.v);
-    if (!carpet_.green.get(x, y) || (carpet_.roi.words != nullptr && !carpet_.roi.get(x, y))) return false;
-  }
-  return true;
-}
-
-void JunctionFinder::reject(const JunctionCandidate& c, JunctionRejection reason) {
-  RejectedJunction r;
-  r.pixel = camera_pixel(c.ground);
-  r.branches = static_cast<std::uint8_t>(c.branches.size());
-  r.reason = reason;
-  features_.rejections.push_back(r);
+  c.ground = {sum.x / weights, sum.y / weights};
 }
 
 void JunctionFinder::classify_all() {
-  for (JunctionCandidate& c : work_.candidates) {
-    refine(c);
+  for (std::size_t n = 0; n < work_.candidates.size(); ++n) {  // each round takes one or more
+    std::size_t best = work_.candidates.size();
+    for (std::size_t i = 0; i < work_.candidates.size(); ++i) {
+      const JunctionCandidate& c = work_.candidates[i];
+      if (!c.taken && (best == work_.candidates.size() || c.sigma < work_.candidates[best].sigma)) best = i;
+    }
+    if (best == work_.candidates.size()) return;
+    merge(best);
+    JunctionCandidate& c = work_.candidates[best];
     if (on_circle(c.ground)) {
-      reject(c, JunctionRejection::curved);
+      reject(c, 0, JunctionRejection::curved);
     } else {
       classify(c);
     }
   }
 }
 
-/// Sorts the branches counter-clockwise and decides by the angles between neighbours.
-void JunctionFinder::classify(JunctionCandidate& c) {
-  auto& b = c.branches;
-  const CameraPose& pose = rays_.projection().pose();
-  if (math::hypot(c.ground.x - pose.x, c.ground.y - pose.y) > parameters_.max_range_m)
-    return reject(c, JunctionRejection::too_far);
-  if (b.size() < 2) return reject(c, JunctionRejection::branch_too_short);
-  if (b.size() > 4) return reject(c, JunctionRejection::too_many_branches);
-  for (std::size_t i = 1; i < b.size(); ++i) {  // insertion sort of at most four
-    for (std::size_t k = i; k > 0 && b[k].direction < b[k - 1].direction; --k) {
-      const JunctionBranch swap = b[k];
-      b[k] = b[k - 1];
-      b[k - 1] = swap;
-    }
-  }
-  const std::size_t n = b.size();
-  float turn[4] = {};  // counter-clockwise from each branch to the next
-  float off_angle = 0.0F;
-  std::size_t straight = n;  // the branch before a straight angle
-  for (std::size_t i = 0; i < n; ++i) {
-    turn[i] = b[(i + 1) % n].direction - b[i].direction;
-    if (turn[i] <= 0.0F) turn[i] += math::two_pi;
-    const float quarters = turn[i] < 0.75F * math::pi ? 1.0F : (turn[i] < 1.25F * math::pi ? 2.0F : 3.0F);
-    if (quarters == 2.0F) straight = i;
-    off_angle = math::max(off_angle, math::abs(turn[i] - quarters * math::half_pi));
-  }
-  const auto at = [n](std::size_t i) { return static_cast<int>(i % n); };
-  if (n == 4) {
-    const int order[4] = {0, 1, 2, 3};
-    return accept(c, JunctionType::x, order, off_angle);
-  }
-  if (n == 3) {
-    if (straight == n) return reject(c, JunctionRejection::bad_angles);
-    // The bar is straight -> straight + 1; counter-clockwise of the stem comes the branch after it.
-    const int order[4] = {at(straight + 2), at(straight + 3), at(straight + 1), 0};
-    if (!carpet_beyond(c, wrap_angle(b[static_cast<std::size_t>(order[0])].direction + math::pi)))
-      return reject(c, JunctionRejection::at_border);
-    return accept(c, JunctionType::t, order, off_angle);
-  }
-  if (straight != n) return reject(c, JunctionRejection::straight);
-  const std::size_t first = turn[0] < math::pi ? 0 : 1;
-  for (const JunctionBranch& branch : b) {
-    if (!carpet_beyond(c, wrap_angle(branch.direction + math::pi))) return reject(c, JunctionRejection::at_border);
-  }
-  const int order[4] = {at(first), at(first + 1), 0, 0};
-  accept(c, JunctionType::l, order, off_angle);
+/// What leaves the junction in a direction.
+JunctionFinder::Way JunctionFinder::way(const JunctionCandidate& c, float direction) const {
+  const float half = 0.5F * parameters_.line_width_m;
+  const float px = metres_per_px(c.ground, direction);
+  const float length = min_branch(c.ground, direction);
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  const auto at = [&](float d) { return GroundPoint{c.ground.x + d * out.x, c.ground.y + d * out.y}; };
+  const Sight branch = look(at(half + px), at(half + px + length));
+  if (branch.middle >= present) return Way::line;
+  // The mask of the line across reaches a pixel or two beyond its edge.
+  const float edge = 1.3F * half + 2.0F * px;
+  const Sight beyond = look(at(edge), at(edge + 0.5F * length));
+  if (!beyond.seen || beyond.middle > absent || beyond.carpet < present) return Way::hidden;
+  return Way::carpet;
 }
 
-void JunctionFinder::accept(const JunctionCandidate& c, JunctionType type, const int* order, float off_angle) {
+/// Counts the four ways at right angles: X has four, T three, L two that are not opposite.
+void JunctionFinder::classify(const JunctionCandidate& c) {
+  const CameraPose& pose = rays_.projection().pose();
+  if (distance(c.ground, {pose.x, pose.y}) > parameters_.max_range_m) return reject(c, 0, JunctionRejection::too_far);
+  if (look(c.ground, c.ground).white < present) return reject(c, 0, JunctionRejection::branch_too_short);
+  const bool left = angle_difference(c.other, c.heading) > 0.0F;  // `other` is counter-clockwise of `heading`
+  const float second = left ? c.other : wrap_angle(c.other + math::pi);
+  const float directions[4] = {c.heading, second, wrap_angle(c.heading + math::pi), wrap_angle(second + math::pi)};
+  bool is_line[4] = {};
+  int lines = 0;
+  bool hidden = false;
+  for (int i = 0; i < 4; ++i) {
+    const Way w = way(c, directions[i]);
+    is_line[i] = w == Way::line;
+    lines += is_line[i] ? 1 : 0;
+    hidden = hidden || w == Way::hidden;
+  }
+  if (lines < 2) return reject(c, lines, JunctionRejection::branch_too_short);
+  // Straight lines of a field never cross, so what is behind the bar of a T need not be seen.
+  if (hidden && lines < 3) return reject(c, lines, JunctionRejection::at_border);
+  const float quality = 1.0F - 0.5F * math::min(c.off_angle / max_angle_tolerance, 1.0F);
+  if (lines == 4) return accept(c, JunctionType::x, directions, 4, quality);
+  if (lines == 3) {
+    int gap = 0;
+    while (is_line[gap]) ++gap;
+    // The stem is opposite the missing branch; counter-clockwise of it the bar.
+    const float ordered[3] = {directions[(gap + 2) % 4], directions[(gap + 3) % 4], directions[(gap + 1) % 4]};
+    return accept(c, JunctionType::t, ordered, 3, quality);
+  }
+  for (int i = 0; i < 4; ++i) {
+    if (!is_line[i] || !is_line[(i + 1) % 4]) continue;
+    const float ordered[2] = {directions[i], directions[(i + 1) % 4]};
+    return accept(c, JunctionType::l, ordered, 2, quality);
+  }
+  reject(c, lines, JunctionRejection::straight);
+}
+
+void JunctionFinder::reject(const JunctionCandidate& c, int branches, JunctionRejection reason) {
+  RejectedJunction r;
+  (void)rays_.projection().pixel(c.ground, r.pixel);
+  r.branches = static_cast<std::uint8_t>(branches);
+  r.reason = reason;
+  features_.rejections.push_back(r);
+}
+
+void JunctionFinder::accept(const JunctionCandidate& c, JunctionType type, const float* directions, int count,
+                            float quality) {
   Junction j;
+  if (!rays_.projection().pixel(c.ground, j.pixel)) return reject(c, count, JunctionRejection::no_ground);
   j.type = type;
   j.ground = c.ground;
-  j.pixel = camera_pixel(c.ground);
   j.covariance = rays_.projection().ground_covariance(j.pixel, sigma_px, sigma_tilt);
-  j.branches = static_cast<int>(c.branches.size());
-  float shortest = 1.0e3F;
-  for (int i = 0; i < j.branches; ++i) {
-    const JunctionBranch& b = c.branches[static_cast<std::size_t>(order[i])];
-    j.direction[static_cast<std::size_t>(i)] = b.direction;
-    shortest = math::min(shortest, b.length / parameters_.line_width_m);
-  }
-  // Half of the confidence goes where branches are barely long enough, or angles barely right.
-  const float long_enough = math::clamp(shortest / (3.0F * min_branch_widths), 0.5F, 1.0F);
-  const float right_enough = math::clamp(1.0F - 0.5F * off_angle / max_angle_tolerance, 0.5F, 1.0F);
+  j.branches = count;
+  for (int i = 0; i < count; ++i) j.direction[static_cast<std::size_t>(i)] = directions[i];
   const CameraPose& pose = rays_.projection().pose();
-  const float range = math::hypot(c.ground.x - pose.x, c.ground.y - pose.y);
+  const float range = distance(c.ground, {pose.x, pose.y});
   const float near_enough = math::clamp(1.25F - 0.25F * range, 0.3F, 1.0F);  // 1 up to 1 m, 0.5 at 3 m
-  j.confidence = long_enough * right_enough * near_enough;
+  const float sure = math::clamp(1.0F - c.sigma / radians(30.0F), 0.3F, 1.0F);
+  j.confidence = quality * near_enough * sure;
   features_.junctions.push_back(j);
 }
 
 }  // namespace
 
-int find_junctions(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const CarpetView& carpet,
+int find_junctions(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const FieldView& field,
                    const JunctionParameters& parameters, JunctionWork& work, Features& features) {
   work.candidates.clear();
-  JunctionFinder finder(lines, circle, rays, carpet, parameters, work, features);
+  JunctionFinder finder(lines, circle, rays, field, parameters, work, features);
   finder.cut_circle();
   finder.pair_up();
   finder.classify_all();

@@ -3,9 +3,9 @@
 //
 // The paper reads the type off a node's degree. A skeleton breaks at crossings, sheds spurs there, and splits an X into
 // two T's, so the branches are counted on the ground: two straight stretches of the graph (line_segments.h) that meet
-// at a right angle, each going up to the other, make a candidate; candidates at the same place are one, and its
-// branches are those that are long enough to be lines. What is cut off by the border of the picture or ends behind an
-// obstacle has no type, so beyond a missing branch the carpet has to be seen.
+// at a right angle, each going up to the other in white, make a candidate; candidates at the same place are one. From
+// there the line mask is followed in the four directions. What is cut off by the border of the picture or ends behind
+// an obstacle has no type, so where a branch is missing the carpet has to be seen.
 #pragma once
 
 #include "platform/core/static_vector.h"
@@ -22,19 +22,16 @@ struct JunctionParameters {
   float max_range_m = 6.0F;
 };
 
-struct JunctionBranch {
-  float direction = 0.0F;  // on the ground, away from the junction
-  float length = 0.0F;     // metres
-  float sigma = 0.0F;      // of the direction, radians
-  bool curved = false;     // an arc of the centre circle
-  std::uint16_t segment = 0;
-};
+/// Two stretches of line that meet at a right angle.
 struct JunctionCandidate {
-  Vec3 ray;
   GroundPoint ground;
-  StaticVector<JunctionBranch, 8> branches;  // more than four are no junction; eight show that
+  float heading = 0.0F;    // of the line that is known better
+  float other = 0.0F;      // of the one across it
+  float off_angle = 0.0F;  // what they are off from a right angle, before that is made use of
+  float sigma = 0.0F;      // radians, of both directions together
+  bool taken = false;      // part of a junction that has been judged
 };
-inline constexpr std::size_t max_junction_candidates = 96;  // twice what a frame of clutter shows
+inline constexpr std::size_t max_junction_candidates = 192;  // a frame of clutter shows half as many
 
 /// Working memory.
 struct JunctionWork {
@@ -48,12 +45,6 @@ struct FeatureWork {
   JunctionWork junctions;
 };
 
-/// What can be seen of the carpet: green pixels and the region of interest.
-struct CarpetView {
-  ConstBitView green;
-  ConstBitView roi;
-};
-
 /// The centre circle, where it was found (circle.h).
 struct SeenCircle {
   const CircleObservation& observation;
@@ -64,7 +55,7 @@ struct SeenCircle {
 /// Appends to features.junctions and features.rejections. Returns how many junctions and candidates found no room.
 /// With a circle (`circle` not null), segments flagged on_circle are its arcs, and X's are where the half line cuts it;
 /// nothing else meets on a centre circle.
-int find_junctions(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const CarpetView& carpet,
+int find_junctions(const LineSegments& lines, const SeenCircle* circle, const WorkRays& rays, const FieldView& field,
                    const JunctionParameters& parameters, JunctionWork& work, Features& features);
 
 }  // namespace touchline

@@ -9,6 +9,7 @@
 
 #include "platform/core/static_vector.h"
 #include "vision/graph.h"
+#include "vision/image/bit_image.h"
 #include "vision/work_rays.h"
 
 namespace touchline {
@@ -22,6 +23,7 @@ struct LineSegment {
   float sigma = 0.0F;     // of the direction, radians: half a working pixel at each end
   std::uint16_t chain = 0;
   std::uint16_t points = 0;
+  bool is_short = false;   // its middle is good, its direction is not
   bool on_circle = false;  // set by the centre circle's fit
 };
 
@@ -52,8 +54,15 @@ struct LineSegmentParameters {
   float max_range_m = 6.0F;
 };
 
+/// What the colours say: line pixels, carpet (after dilation, so lines count as carpet too), region of interest.
+struct FieldView {
+  ConstBitView lines;
+  ConstBitView green;
+  ConstBitView roi;  // may be empty (words == nullptr): the whole picture
+};
+
 /// `edge_done` has one entry an edge of the graph. Segments and points without room are counted in their dropped().
-void find_line_segments(const NodeGraphView& graph, const WorkRays& rays, const LineSegmentParameters& parameters,
-                        std::span<std::uint8_t> edge_done, LineSegments& out);
+void find_line_segments(const NodeGraphView& graph, const WorkRays& rays, const FieldView& field,
+                        const LineSegmentParameters& parameters, std::span<std::uint8_t> edge_done, LineSegments& out);
 
 }  // namespace touchline

@@ -280,13 +280,14 @@ void Pipeline::find_features(VisionResult& result) {
   features.rejections.clear();
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
-  find_line_segments(result.graph, rays, {config_.line_width_m, config_.max_range_m}, memory_.graph.edge_done,
+  const FieldView field{result.line_mask, result.green, result.roi};
+  find_line_segments(result.graph, rays, field, {config_.line_width_m, config_.max_range_m}, memory_.graph.edge_done,
                      work.lines);
   features.has_circle =
       find_circle(work.lines, rays, {config_.circle_radius_m, config_.line_width_m}, work.circle, features.circle);
   const SeenCircle circle{features.circle, work.circle.seen, config_.circle_radius_m};
   const int dropped =
-      find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, {result.green, result.roi},
+      find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, field,
                      {config_.line_width_m, config_.max_range_m}, work.junctions, features);
   result.counts.dropped_junctions =
       dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
