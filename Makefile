@@ -3,6 +3,7 @@
 BUILD ?= build
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 DATA ?=
+FIGURES ?= tests/accept/figures.json
 NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
@@ -40,10 +41,10 @@ golden: build  ## writes the golden outputs anew, for changes of behaviour that 
 
 accept: build  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
 	@[ -n "$(DATA)" ] || { echo "Which data? Say: make accept DATA=folder" >&2; exit 2; }
-	@$(TOUCHLINE) accept "$(DATA)"
+	@$(TOUCHLINE) accept "$(DATA)" $(if $(wildcard $(FIGURES)),--figures $(FIGURES))
 
-bench: build  ## times per stage
-	@$(TOUCHLINE) bench
+bench: build  ## times per stage on the fixtures, in microseconds
+	@$(TOUCHLINE) evaluate $(sort $(dir $(wildcard fixtures/*/frames.jsonl))) | grep -E '^[a-z].*frames,|median us'
 
 format:  ## clang-format over all sources
 	@bash $(NEED) check
