@@ -14,11 +14,13 @@ sim::DataSetHead make_head(const SimulateCommand& command) {
   sim::DataSetHead head;
   const auto field = field_preset(command.field);
   if (!field) {
-    throw HostError("--field " + command.field + ": no such preset; use acyut-5x3, kidsize-9x6, small-2026 or middle-2026");
+    throw HostError("--field " + command.field +
+                    ": no such preset; use acyut-5x3, kidsize-9x6, small-2026 or middle-2026");
   }
   const auto camera = sim::camera_model(command.camera);
   if (!camera) {
-    throw HostError("--camera " + command.camera + ": no such camera; use fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb");
+    throw HostError("--camera " + command.camera +
+                    ": no such camera; use fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb");
   }
   head.name = "sim-" + command.kind + "-" + command.field + "-" + std::to_string(command.seed);
   head.field_name = command.field;
@@ -30,7 +32,8 @@ sim::DataSetHead make_head(const SimulateCommand& command) {
 
 int write_walk(const SimulateCommand& command, sim::DataSetHead head) {
   if (!(command.seconds >= 0.0 && command.seconds <= 3600.0)) throw HostError("--seconds: give 0 to 3600");
-  if (!(command.frames_per_second >= 5.0 && command.frames_per_second <= 100.0)) throw HostError("--fps: give 5 to 100");
+  if (!(command.frames_per_second >= 5.0 && command.frames_per_second <= 100.0))
+    throw HostError("--fps: give 5 to 100");
   sim::WalkScenarioOptions options = sim::acceptance_walk(head.field, head.camera, command.seed);
   options.frames_per_second = static_cast<float>(command.frames_per_second);
   options.yaw = command.yaw;
@@ -62,7 +65,8 @@ int write_poses(const SimulateCommand& command, sim::DataSetHead head) {
 }  // namespace
 
 int run_simulate(const SimulateCommand& command, std::ostream& out) {
-  if (command.kind != "walk" && command.kind != "poses") throw HostError("--kind " + command.kind + ": use walk or poses");
+  if (command.kind != "walk" && command.kind != "poses")
+    throw HostError("--kind " + command.kind + ": use walk or poses");
   if (command.jpeg_quality < 0 || command.jpeg_quality > 100) throw HostError("--jpeg: give 1 to 100, or 0 for PNG");
   const sim::DataSetHead head = make_head(command);
   const int frames = command.kind == "walk" ? write_walk(command, head) : write_poses(command, head);

@@ -71,10 +71,12 @@ std::ofstream open_file(const std::filesystem::path& path) {
 
 }  // namespace
 
-DataSetWriter::DataSetWriter(const std::filesystem::path& folder, const DataSetHead& head) : folder_(folder), head_(head) {
+DataSetWriter::DataSetWriter(const std::filesystem::path& folder, const DataSetHead& head)
+    : folder_(folder), head_(head) {
   const char* what = nullptr;
   if (Field::create(head.field, field_, &what) != Status::ok) {
-    throw host::HostError(std::string("field: ") + (what != nullptr ? what : "dimension") + " is out of range; see --help");
+    throw host::HostError(std::string("field: ") + (what != nullptr ? what : "dimension") +
+                          " is out of range; see --help");
   }
   std::error_code error;
   if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
@@ -95,7 +97,8 @@ void DataSetWriter::write_head() const {
   write_lens(out, head_.camera.lens);
   out << "\n[mount]\nx_m = " << head_.mount.x << "\ny_m = " << head_.mount.y << "\nheight_m = " << head_.mount.height
       << "\nyaw_deg = " << degrees(head_.mount.yaw) << "\npitch_deg = " << degrees(head_.mount.pitch)
-      << "\nroll_deg = " << degrees(head_.mount.roll) << "\n\n[imu]\ngoal_yaw_deg = " << degrees(head_.goal_yaw) << "\n";
+      << "\nroll_deg = " << degrees(head_.mount.roll) << "\n\n[imu]\ngoal_yaw_deg = " << degrees(head_.goal_yaw)
+      << "\n";
   if (head_.field_name.empty()) write_field(out, head_.field);
 }
 
@@ -137,21 +140,24 @@ void DataSetWriter::add(const SimFrame& frame, const Scene& scene, const Lens& l
   write_expected(frame, scene, lens, number, file);
   Json line{{"image", "images/" + file}};
   if (head_.protocol == host::Protocol::sequence) line["t_s"] = std::round(frame.time_s * 1e6) / 1e6;
-  line["mount"] = {{"x_m", metres(frame.mount.x)},          {"y_m", metres(frame.mount.y)},
-                   {"height_m", metres(frame.mount.height)}, {"yaw_deg", in_degrees(frame.mount.yaw)},
-                   {"pitch_deg", in_degrees(frame.mount.pitch)}, {"roll_deg", in_degrees(frame.mount.roll)}};
+  line["mount"] = {{"x_m", metres(frame.mount.x)},
+                   {"y_m", metres(frame.mount.y)},
+                   {"height_m", metres(frame.mount.height)},
+                   {"yaw_deg", in_degrees(frame.mount.yaw)},
+                   {"pitch_deg", in_degrees(frame.mount.pitch)},
+                   {"roll_deg", in_degrees(frame.mount.roll)}};
   if (head_.protocol == host::Protocol::sequence) {
     line["odometry"] = {{"dx_m", metres(frame.odometry.x)},
                         {"dy_m", metres(frame.odometry.y)},
                         {"dtheta_deg", in_degrees(frame.odometry.theta)}};
   }
   if (frame.has_yaw) line["imu_yaw_deg"] = in_degrees(wrap_angle(frame.yaw + head_.goal_yaw));
-  line["truth"] = {{"x_m", metres(frame.truth.x)},
-                   {"y_m", metres(frame.truth.y)},
-                   {"theta_deg", in_degrees(frame.truth.theta)}};
+  line["truth"] = {
+      {"x_m", metres(frame.truth.x)}, {"y_m", metres(frame.truth.y)}, {"theta_deg", in_degrees(frame.truth.theta)}};
   if (frame.kidnapped) line["truth"]["kidnap"] = true;
   lines_ << line.dump() << "\n";
-  if (!lines_.flush()) throw host::HostError((folder_ / "frames.jsonl").string() + ": cannot be written; is the disk full?");
+  if (!lines_.flush())
+    throw host::HostError((folder_ / "frames.jsonl").string() + ": cannot be written; is the disk full?");
   count_ += 1;
 }
 

@@ -14,12 +14,12 @@ namespace touchline::sim {
 struct DataSetHead {
   std::string name;
   host::Protocol protocol = host::Protocol::independent;
-  std::string field_name;   // a preset's name; empty: the dimensions are written out
+  std::string field_name;  // a preset's name; empty: the dimensions are written out
   FieldDimensions field;
   SimCameraModel camera;
-  CameraPose mount;         // at rest
-  float goal_yaw = 0.0F;    // radians
-  int jpeg_quality = 0;     // 0: PNG
+  CameraPose mount;       // at rest
+  float goal_yaw = 0.0F;  // radians
+  int jpeg_quality = 0;   // 0: PNG
 };
 
 class DataSetWriter {

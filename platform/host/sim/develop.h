@@ -55,7 +55,7 @@ class Developer {
   std::array<int, 3> shift_x_{}, shift_y_{};  // of the noise, for each channel
   std::vector<float> vertical_, both_;        // rows, with a margin
   std::vector<float> grain_;
-  std::vector<std::uint8_t> row_;             // three planes
+  std::vector<std::uint8_t> row_;  // three planes
 };
 
 }  // namespace touchline::sim

@@ -14,8 +14,7 @@ class Figure {
     out_.push_back(make_box(place(x, y, z), {half_x, half_y, half_z}, pose_.theta, Material{color, {}, {}, 1.0F, 0}));
   }
   void limb(const Vec3& a, const Vec3& b, float radius, const Rgb& color) {
-    out_.push_back(
-        make_capsule(place(a.x, a.y, a.z), place(b.x, b.y, b.z), radius, Material{color, {}, {}, 1.0F, 0}));
+    out_.push_back(make_capsule(place(a.x, a.y, a.z), place(b.x, b.y, b.z), radius, Material{color, {}, {}, 1.0F, 0}));
   }
   void ball(float x, float y, float z, float radius, const Rgb& color) {
     out_.push_back(make_sphere(place(x, y, z), radius, Material{color, {}, {}, 1.0F, 0}));
@@ -112,7 +111,8 @@ void append_goal(float goal_x, float width, float height, float diameter, const 
       const float y = static_cast<float>(side) * width * 0.5F;
       out.push_back(make_capsule({goal_x, y, low * height}, {goal_x, y, high * height}, r, paint));
     }
-    out.push_back(make_capsule({goal_x, (low - 0.5F) * width, height}, {goal_x, (high - 0.5F) * width, height}, r, paint));
+    out.push_back(
+        make_capsule({goal_x, (low - 0.5F) * width, height}, {goal_x, (high - 0.5F) * width, height}, r, paint));
   }
 }
 

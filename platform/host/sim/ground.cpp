@@ -179,10 +179,12 @@ Rgb Ground::carpet(float x, float y, const Footprint& pixel, float extent) const
   // The grain fades where a pixel spans several texels: the sum of many is their mean.
   const float fine_strength = fine_texel / (fine_texel + extent);
   const float middle_strength = middle_texel / (middle_texel + extent);
-  const float fine = extent < 0.03F ? fine_.sample(x * (1.0F / fine_texel), y * (1.0F / fine_texel)) * fine_strength : 0.0F;
-  const float middle = (extent < 0.5F * middle_texel ? middle_.sample(x * (1.0F / middle_texel), y * (1.0F / middle_texel))
-                                                     : middle_.nearest(x * (1.0F / middle_texel), y * (1.0F / middle_texel))) *
-                       middle_strength;
+  const float fine =
+      extent < 0.03F ? fine_.sample(x * (1.0F / fine_texel), y * (1.0F / fine_texel)) * fine_strength : 0.0F;
+  const float middle =
+      (extent < 0.5F * middle_texel ? middle_.sample(x * (1.0F / middle_texel), y * (1.0F / middle_texel))
+                                    : middle_.nearest(x * (1.0F / middle_texel), y * (1.0F / middle_texel))) *
+      middle_strength;
   const float coarse = coarse_.nearest(x * (2.0F / coarse_texel), y * (2.0F / coarse_texel));
   float shade = 1.0F + options_.grain * (1.6F * fine + 0.7F * middle + 0.35F * coarse);
   const float strip = y / seam_;
@@ -219,7 +221,8 @@ Rgb Ground::color(float x, float y, const Footprint& pixel) const {
   const float past = math::max(math::abs(x) - half_length_, math::abs(y) - half_width_);
   if (past < -extent) return carpet(x, y, pixel, extent);
   if (past > extent) return floor(x, y, pixel, extent);
-  const float on_carpet = covered(x, half_x, -half_length_, half_length_) * covered(y, half_y, -half_width_, half_width_);
+  const float on_carpet =
+      covered(x, half_x, -half_length_, half_length_) * covered(y, half_y, -half_width_, half_width_);
   return mix(floor(x, y, pixel, extent), carpet(x, y, pixel, extent), on_carpet);
 }
 

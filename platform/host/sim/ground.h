@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground as the camera sees it: carpet with grain and seams, painted lines, the floor around. A pixel's share of a line
-// is computed analytically from its footprint on the ground, so that far lines thinner than a pixel keep their brightness.
+// The ground as the camera sees it: carpet with grain and seams, painted lines, the floor around. A pixel's share of a
+// line is computed analytically from its footprint on the ground, so that far lines thinner than a pixel keep their
+// brightness.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +17,12 @@ struct GroundOptions {
   Rgb carpet;
   Rgb paint;
   Rgb floor;
-  bool wood = false;            // else plain concrete
-  bool cross_marks = false;     // penalty mark as a cross, else a disc
-  float wear = 0.0F;            // 0..1: share of the paint that is gone
-  int debris = 8;               // bright specks of a few millimetres on the carpet
-  float ragged = 0.0018F;       // metres, 1 sigma, by which the paint's edge wanders
-  float grain = 0.10F;          // relative strength of the carpet's texture
+  bool wood = false;              // else plain concrete
+  bool cross_marks = false;       // penalty mark as a cross, else a disc
+  float wear = 0.0F;              // 0..1: share of the paint that is gone
+  int debris = 8;                 // bright specks of a few millimetres on the carpet
+  float ragged = 0.0018F;         // metres, 1 sigma, by which the paint's edge wanders
+  float grain = 0.10F;            // relative strength of the carpet's texture
   float floor_line_inset = 0.5F;  // metres between the carpet and a line on the floor; 0: no such lines
 };
 

@@ -10,8 +10,8 @@
 namespace touchline::sim {
 
 struct TileCone {
-  Vec3 axis;             // unit vector, optical frame
-  float cosine = 2.0F;   // of the half angle that holds all the tile's rays; 2: the tile sees nothing
+  Vec3 axis;            // unit vector, optical frame
+  float cosine = 2.0F;  // of the half angle that holds all the tile's rays; 2: the tile sees nothing
   float sine = 0.0F;
 };
 

@@ -15,8 +15,8 @@ class NoiseTile {
   static constexpr int size = 256;
   static constexpr float unit = 40.0F;  // texel value of one standard deviation
 
-  /// Value noise summed over `octaves`, the coarsest with cells of `cell` texels (a power of two), each further one half
-  /// the size and `persistence` times the strength.
+  /// Value noise summed over `octaves`, the coarsest with cells of `cell` texels (a power of two), each further one
+  /// half the size and `persistence` times the strength.
   void generate(Rng& rng, int cell, int octaves, float persistence);
   /// In standard deviations; bilinear; positions in texels, above -8192.
   [[nodiscard]] float sample(float x, float y) const {

@@ -6,9 +6,9 @@
 namespace touchline::sim {
 namespace {
 
-constexpr float nowhere = 1e6F;          // ground coordinate of a ray at or above the horizon
+constexpr float nowhere = 1e6F;  // ground coordinate of a ray at or above the horizon
 constexpr float largest_footprint = 4.0F;
-constexpr float rim_softness = 160.0F;   // the image circle's edge, in 1 / cosine
+constexpr float rim_softness = 160.0F;  // the image circle's edge, in 1 / cosine
 
 }  // namespace
 
@@ -179,7 +179,8 @@ void SimRenderer::render(const Scene& scene, const Pose2& robot, const CameraPos
 
 bool SimRenderer::differs(int x, int y) const {
   const auto at = [&](int i, int j) {
-    return identity_[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.width()) + static_cast<std::size_t>(i)];
+    return identity_[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.width()) +
+                     static_cast<std::size_t>(i)];
   };
   const Identity own = at(x, y);
   return at(x - 1, y) != own || at(x + 1, y) != own || at(x, y - 1) != own || at(x, y + 1) != own;

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "platform/core/frame.h"
 #include "platform/host/sim/develop.h"
 #include "platform/host/sim/lens_map.h"
 #include "platform/host/sim/scene.h"
-#include "platform/core/frame.h"
 #include "vision/lens/camera_pose.h"
 
 namespace touchline::sim {
@@ -27,8 +27,9 @@ class SimRenderer {
   using Identity = std::uint16_t;  // of what a pixel shows: 0 ground, 1..5 walls, then 8 a solid
 
   struct Bound {  // a solid's bounding sphere, seen from the camera
-    Vec3 to;             // its centre
-    float clear2 = 0.0F; // squared distance along a ray below which the ray passes beside it; < 0: the camera is inside
+    Vec3 to;      // its centre
+    float clear2 =
+        0.0F;  // squared distance along a ray below which the ray passes beside it; < 0: the camera is inside
   };
   struct Row {  // rays in the field's axes, and where they meet the ground
     std::vector<float> x, y, z, ground_x, ground_y;

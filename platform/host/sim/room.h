@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hall around the field: four walls, ceiling, and what hangs on them. The sun, where there is one, falls through the
-// same windows that the camera sees.
+// The hall around the field: four walls, ceiling, and what hangs on them. The sun, where there is one, falls through
+// the same windows that the camera sees.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct WallItem {  // a rectangle on a wall: s along it, z up
 struct RoomOptions {
   Rgb wall;
   Rgb ceiling;
-  Rgb window;           // what is seen through a window; brighter than 1 at day
+  Rgb window;                 // what is seen through a window; brighter than 1 at day
   bool windows_emit = false;  // shown at full brightness whatever the light inside
   float height = 3.0F;
 };

@@ -19,17 +19,17 @@ struct SimCameraModel {
   int width = 0;
   int height = 0;
 };
-/// "fisheye-185": 752 x 480, equidistant, 232.9 px, seen to 92.5 degrees. "fisheye-140": 640 x 480, equisolid, 70 degrees at
-/// the left and right edge. "fisheye-140-kb": the same field of view, Kannala-Brandt. "fisheye-185-qvga": 320 x 240, the
-/// first lens on a small sensor, as on microcontrollers. Nothing for another name.
+/// "fisheye-185": 752 x 480, equidistant, 232.9 px, seen to 92.5 degrees. "fisheye-140": 640 x 480, equisolid, 70
+/// degrees at the left and right edge. "fisheye-140-kb": the same field of view, Kannala-Brandt. "fisheye-185-qvga":
+/// 320 x 240, the first lens on a small sensor, as on microcontrollers. Nothing for another name.
 std::optional<SimCameraModel> camera_model(std::string_view name);
 
 /// What the sensors say between frames, at their own rate.
 struct SimReading {
   double time_s = 0.0;
-  Pose2 odometry;      // summed since the start
-  float yaw = 0.0F;    // as the IMU reads it: goal yaw included, continuous, radians
-  CameraPose mount;    // as measured
+  Pose2 odometry;    // summed since the start
+  float yaw = 0.0F;  // as the IMU reads it: goal yaw included, continuous, radians
+  CameraPose mount;  // as measured
   Activity activity = Activity::walking;
 };
 
@@ -37,15 +37,15 @@ struct SimReading {
 struct SimFrame {
   int index = 0;
   double time_s = 0.0;
-  FrameView image;          // RGB24; valid until the next frame is drawn
-  CameraPose mount;         // as measured
-  Pose2 odometry;           // since the frame before, as the gait believes it
+  FrameView image;   // RGB24; valid until the next frame is drawn
+  CameraPose mount;  // as measured
+  Pose2 odometry;    // since the frame before, as the gait believes it
   bool has_yaw = false;
-  float yaw = 0.0F;         // IMU yaw minus goal yaw, radians, continuous
+  float yaw = 0.0F;            // IMU yaw minus goal yaw, radians, continuous
   bool moved_by_hand = false;  // fallen or lifted, as the gait reports it
   Pose2 truth;
   CameraPose true_camera;
-  bool kidnapped = false;   // truth only; nothing announces it
+  bool kidnapped = false;  // truth only; nothing announces it
 };
 
 /// Single pictures, each from nothing: poses uniform inside the lines, any heading, pitch uniform between the limits.
@@ -93,10 +93,10 @@ struct WalkScenarioOptions {
   std::uint64_t seed = 1;
   float frames_per_second = 12.0F;
   bool yaw = true;
-  int readings_per_frame = 4;      // of gait and IMU
-  double kidnap_at_s = -1.0;       // unannounced; < 0: none
-  double fall_at_s = -1.0;         // lies 3 s, then gets up; < 0: none
-  double lift_at_s = -1.0;         // carried 3 s and put down elsewhere, with the flag; < 0: none
+  int readings_per_frame = 4;  // of gait and IMU
+  double kidnap_at_s = -1.0;   // unannounced; < 0: none
+  double fall_at_s = -1.0;     // lies 3 s, then gets up; < 0: none
+  double lift_at_s = -1.0;     // carried 3 s and put down elsewhere, with the flag; < 0: none
 };
 /// The acceptance walk of a preset: random scene, biased gait, drifting yaw, measured tilt; all from the seed.
 WalkScenarioOptions acceptance_walk(const FieldDimensions& field, const SimCameraModel& camera, std::uint64_t seed);

@@ -5,7 +5,7 @@
 namespace touchline::sim {
 
 SceneOptions random_scene(const FieldDimensions& field, std::uint64_t seed) {
-  static constexpr int carpets[6][3] = {{59, 121, 73}, {69, 116, 64}, {48, 108, 79},
+  static constexpr int carpets[6][3] = {{59, 121, 73},  {69, 116, 64}, {48, 108, 79},
                                         {60, 128, 100}, {74, 112, 52}, {54, 70, 32}};
   Rng rng(seed, 3);
   SceneOptions o;
@@ -76,7 +76,8 @@ void Scene::set_light() {
 void Scene::add_clutter(Rng& rng, const float (&margin)[Room::walls]) {
   const float x = ground_.half_length();
   const float y = ground_.half_width();
-  // A green board with white stripes, a grey one likewise, banners with letters: what the field's own lines are taken for.
+  // A green board with white stripes, a grey one likewise, banners with letters: what the field's own lines are taken
+  // for.
   const Material boards[4] = {{rgb8(25, 80, 50), rgb8(205, 205, 200), Pattern::stripes, 0.45F, 0},
                               {rgb8(120, 122, 124), rgb8(215, 215, 212), Pattern::stripes, 0.85F, 0},
                               {rgb8(205, 205, 200), rgb8(40, 50, 110), Pattern::text, 1.0F, rng.next_u32()},
@@ -89,7 +90,8 @@ void Scene::add_clutter(Rng& rng, const float (&margin)[Room::walls]) {
     const float turn = rng.uniform(-0.15F, 0.15F);
     const float along = rng.uniform(-0.75F, 0.75F);
     if (wall < 2) append_board(wall == 0 ? x + gap : -x - gap, along * y, turn, length, height, material, still_);
-    if (wall >= 2) append_board(along * x, wall == 2 ? y + gap : -y - gap, math::half_pi + turn, length, height, material, still_);
+    if (wall >= 2)
+      append_board(along * x, wall == 2 ? y + gap : -y - gap, math::half_pi + turn, length, height, material, still_);
   }
   for (int i = 0; i < 7; ++i) {
     const std::uint32_t wall = rng.below(4);
@@ -101,7 +103,8 @@ void Scene::add_clutter(Rng& rng, const float (&margin)[Room::walls]) {
     const std::uint32_t pick = rng.next_u32();
     if (i < 3) append_person(px, py, facing, pick, still_);
     if (i >= 3 && i < 6) append_chair(px, py, facing, pick, still_);
-    if (i == 6) still_.push_back(make_box({px, py, 0.25F}, {0.2F, 0.25F, 0.25F}, facing, {rgb8(190, 30, 30), {}, {}, 1.0F, 0}));
+    if (i == 6)
+      still_.push_back(make_box({px, py, 0.25F}, {0.2F, 0.25F, 0.25F}, facing, {rgb8(190, 30, 30), {}, {}, 1.0F, 0}));
   }
 }
 
@@ -127,8 +130,8 @@ void Scene::set_moving(std::span<const Pose2> robots, float phase, const FieldPo
   std::uint32_t number = 0;
   for (const Pose2& pose : robots) {
     const auto& team = teams[number % 2U];
-    append_robot(pose, options_.robot_height, phase + static_cast<float>(number) * 1.9F, rgb8(team[0], team[1], team[2]),
-                 static_cast<std::uint32_t>(options_.seed) + number, moving_);
+    append_robot(pose, options_.robot_height, phase + static_cast<float>(number) * 1.9F,
+                 rgb8(team[0], team[1], team[2]), static_cast<std::uint32_t>(options_.seed) + number, moving_);
     number += 1;
   }
   if (options_.ball) {

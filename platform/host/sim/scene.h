@@ -23,11 +23,11 @@ struct SceneOptions {
   GroundOptions ground;
   bool yellow_posts = true;  // else white
   bool ball = true;
-  bool orange_ball = true;   // else white
-  bool clutter = true;       // people, boards, chairs around the carpet
-  int robots = 3;            // other robots on the field
+  bool orange_ball = true;  // else white
+  bool clutter = true;      // people, boards, chairs around the carpet
+  int robots = 3;           // other robots on the field
   float robot_height = 0.6F;
-  bool own_feet = false;     // the robot sees its own feet
+  bool own_feet = false;  // the robot sees its own feet
   float exposure = 1.0F;
 };
 
@@ -51,7 +51,9 @@ class Scene {
     return albedo * (ambient_ + direct_ * light_map_.at(x, y));
   }
   [[nodiscard]] Rgb lit_solid(const Rgb& albedo, const Vec3& normal) const;
-  [[nodiscard]] Rgb lit_wall(const Room::Hit& hit) const { return hit.emits ? hit.color * exposure_ : hit.color * indoor_; }
+  [[nodiscard]] Rgb lit_wall(const Room::Hit& hit) const {
+    return hit.emits ? hit.color * exposure_ : hit.color * indoor_;
+  }
   /// Is the straight way from a to b blocked by a solid (own feet included)?
   [[nodiscard]] bool occluded(const Vec3& from, const Vec3& to) const;
 

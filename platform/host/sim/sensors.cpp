@@ -22,7 +22,8 @@ Pose2 SimGait::step(const WorldState& state, float dt) {
   Pose2 believed;
   believed.x = state.step.x * errors_.scale_x * grip + gx * errors_.noise_xy * spread;
   believed.y = state.step.y * errors_.scale_y * grip + gy * errors_.noise_xy * spread;
-  believed.theta = state.step.theta * errors_.scale_theta + (gt * errors_.noise_theta * spread) - moving * errors_.drift * dt;
+  believed.theta =
+      state.step.theta * errors_.scale_theta + (gt * errors_.noise_theta * spread) - moving * errors_.drift * dt;
   return believed;
 }
 

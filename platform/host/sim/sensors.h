@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the robot is told of its own motion: the gait's odometry, the IMU's yaw, and the camera's measured attitude. Each
-// with the errors that such sensors have, all from a seed.
+// What the robot is told of its own motion: the gait's odometry, the IMU's yaw, and the camera's measured attitude.
+// Each with the errors that such sensors have, all from a seed.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 namespace touchline::sim {
 
 struct GaitErrors {
-  float scale_x = 1.06F;          // the gait believes so much more (or less) than it does
+  float scale_x = 1.06F;  // the gait believes so much more (or less) than it does
   float scale_y = 0.95F;
   float scale_theta = 1.05F;
-  float drift = radians(0.1F);    // radians a second of turn that the gait does not notice while walking
-  float noise_xy = 0.011F;        // metres, 1 sigma, per square root of a second of walking
-  float noise_theta = radians(1.4F);  // radians, likewise
+  float drift = radians(0.1F);          // radians a second of turn that the gait does not notice while walking
+  float noise_xy = 0.011F;              // metres, 1 sigma, per square root of a second of walking
+  float noise_theta = radians(1.4F);    // radians, likewise
   float seconds_between_slips = 12.0F;  // mean; 0: never
-  float slip_share = 0.5F;        // of the commanded motion that a slipping foot loses
+  float slip_share = 0.5F;              // of the commanded motion that a slipping foot loses
 };
 
 /// Step as the gait believes it.
@@ -35,13 +35,13 @@ class SimGait {
 };
 
 struct ImuErrors {
-  float noise = radians(0.15F);       // radians, 1 sigma, of each reading
-  float drift = radians(0.05F);       // radians a second, constant
-  float wander = radians(0.15F);      // radians per square root of a second
-  float tilt = radians(0.5F);         // radians, 1 sigma, of the measured camera pitch and roll each
-  float tilt_time = 1.5F;             // seconds over which most of that error stays the same
-  float tilt_white_share = 0.3F;      // of the variance: new in each reading
-  float goal_yaw = 0.0F;              // what the IMU reads toward the opponent's goal
+  float noise = radians(0.15F);   // radians, 1 sigma, of each reading
+  float drift = radians(0.05F);   // radians a second, constant
+  float wander = radians(0.15F);  // radians per square root of a second
+  float tilt = radians(0.5F);     // radians, 1 sigma, of the measured camera pitch and roll each
+  float tilt_time = 1.5F;         // seconds over which most of that error stays the same
+  float tilt_white_share = 0.3F;  // of the variance: new in each reading
+  float goal_yaw = 0.0F;          // what the IMU reads toward the opponent's goal
 };
 
 /// Orientation as the IMU reports it.

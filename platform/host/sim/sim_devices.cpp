@@ -88,7 +88,8 @@ Status SimRobot::advance(MonotonicNs deadline, std::vector<std::uint8_t>& pixels
   frame_ = walk_.next();
   next_index_ += 1;
   push_readings();
-  rgb_.assign(frame_.image.data, frame_.image.data + static_cast<std::ptrdiff_t>(frame_.image.stride_bytes) * frame_.image.height);
+  rgb_.assign(frame_.image.data,
+              frame_.image.data + static_cast<std::ptrdiff_t>(frame_.image.stride_bytes) * frame_.image.height);
   const int width = frame_.image.width;
   const int height = frame_.image.height;
   frame_.image = {};

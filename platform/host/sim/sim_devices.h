@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated robot behind the interfaces of hal: camera, IMU, gait link, panel and clock. Simulated time passes when a
-// frame is waited for and not otherwise, so a run is the same however fast the machine is.
+// The simulated robot behind the interfaces of hal: camera, IMU, gait link, panel and clock. Simulated time passes when
+// a frame is waited for and not otherwise, so a run is the same however fast the machine is.
 #pragma once
 
 #include <cstdint>

@@ -143,8 +143,7 @@ bool intersect(const Solid& solid, const Vec3& origin, const Vec3& direction, fl
 
 Rgb surface_color(const Material& material, float s, float z) {
   switch (material.pattern) {
-    case Pattern::plain:
-      return material.color;
+    case Pattern::plain: return material.color;
     case Pattern::stripes: {
       const float place = s / material.period;
       return place - static_cast<float>(floor_int(place)) < 0.16F ? material.second : material.color;

@@ -6,10 +6,10 @@
 namespace touchline::sim {
 namespace {
 
-constexpr float smoothing = 0.35F;    // seconds in which a gait follows a new command
-constexpr float arrived = 0.25F;      // metres
-constexpr float keep_away = 0.45F;    // metres between the robot and another
-constexpr float bow_when_down = 1.2F; // radians that the camera tips over in a fall
+constexpr float smoothing = 0.35F;     // seconds in which a gait follows a new command
+constexpr float arrived = 0.25F;       // metres
+constexpr float keep_away = 0.45F;     // metres between the robot and another
+constexpr float bow_when_down = 1.2F;  // radians that the camera tips over in a fall
 
 }  // namespace
 

@@ -93,7 +93,8 @@ TEST_CASE("landmarks: expected ones lie in the picture where the drawing is whit
       hidden += mark.occluded ? 1 : 0;
       if (mark.type == "G" || mark.type == "P" || mark.occluded || mark.range > 1.5F) continue;
       junctions += 1;
-      const auto* p = f.image.data + static_cast<int>(mark.px.v) * f.image.stride_bytes + static_cast<int>(mark.px.u) * 3;
+      const auto* p =
+          f.image.data + static_cast<int>(mark.px.v) * f.image.stride_bytes + static_cast<int>(mark.px.u) * 3;
       bright += p[0] * 10 > p[1] * 7 ? 1 : 0;  // paint is grey, carpet has little red
     }
   }

@@ -31,7 +31,8 @@ struct Picture {
   }
   /// Linear light of the red channel: paint is bright, carpet is dark.
   [[nodiscard]] double red(int x, int y) const {
-    const std::size_t i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x)) * 3U;
+    const std::size_t i =
+        (static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(x)) * 3U;
     return rgb[i] * rgb[i] / (255.0 * 255.0);
   }
 };
@@ -57,7 +58,8 @@ Centroid mark_share(const GroundProjection& projection, const Pose2& robot, cons
       GroundPoint g;
       if (!projection.ground({u, v}, g)) continue;
       const FieldPoint p = to_field(robot, g);
-      if (std::hypot(p.x - mark.x, p.y - mark.y) < 0.05F) c.add(static_cast<double>(u), static_cast<double>(v), 1.0 / 64.0);
+      if (std::hypot(p.x - mark.x, p.y - mark.y) < 0.05F)
+        c.add(static_cast<double>(u), static_cast<double>(v), 1.0 / 64.0);
     }
   }
   return c;
@@ -70,8 +72,8 @@ TEST_CASE("renderer: a penalty mark's centroid is where the lens projects it, fo
   for (const char* model : {"fisheye-185", "fisheye-140", "fisheye-140-kb"}) {
     Picture picture(model, plain_scene(small_field()));
     for (int i = 0; i < 6; ++i) {
-      const CameraPose camera{rng.uniform(-0.05F, 0.05F), rng.uniform(-0.05F, 0.05F), 0.58F, rng.uniform(-0.2F, 0.2F),
-                              rng.uniform(0.4F, 0.7F), rng.uniform(-0.5F, 0.5F)};
+      const CameraPose camera{rng.uniform(-0.05F, 0.05F), rng.uniform(-0.05F, 0.05F), 0.58F,
+                              rng.uniform(-0.2F, 0.2F),   rng.uniform(0.4F, 0.7F),    rng.uniform(-0.5F, 0.5F)};
       const FieldPoint mark{1.25F, 0.0F};
       const float heading = rng.uniform(-3.0F, 3.0F);
       const Pose2 robot{mark.x - 1.3F * math::cos(heading), mark.y - 1.3F * math::sin(heading), heading};
@@ -226,7 +228,7 @@ TEST_CASE("renderer: the other formats carry the same picture") {
   CHECK(out[1] == 0xF8);
   CHECK(out[4] == 0xFF);
   convert_rgb24(rgb, 4, 1, PixelFormat::yuyv, out);
-  CHECK(out[0] == doctest::Approx(82).epsilon(0.02));   // BT.601 red: Y 82, Cb 90, Cr 240
+  CHECK(out[0] == doctest::Approx(82).epsilon(0.02));  // BT.601 red: Y 82, Cb 90, Cr 240
   CHECK(out[1] == doctest::Approx(90).epsilon(0.02));
   CHECK(out[3] == doctest::Approx(240).epsilon(0.02));
   CHECK(out[4] == 235);

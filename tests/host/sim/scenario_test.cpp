@@ -128,8 +128,8 @@ TEST_CASE("scenario: kidnap unannounced, fall and lift announced") {
   CHECK(still > by_hand - 4);
 }
 
-// Holds compilers and optimisation levels to the same frames: a difference shows as another hash. A deliberate change of
-// the simulator changes it too: then copy the new value from the failure.
+// Holds compilers and optimisation levels to the same frames: a difference shows as another hash. A deliberate change
+// of the simulator changes it too: then copy the new value from the failure.
 TEST_CASE("scenario: the same bytes from every compiler") {
   PoseScenario scenario(poses(77));
   std::uint64_t hash = hash_seed;

@@ -28,11 +28,12 @@ TEST_CASE("ground: lines lie where the field's dimensions say") {
   CHECK(paint_share(ground, o.ground, 2.45F + 0.048F, 0.3F, tiny) == doctest::Approx(1.0F).epsilon(0.002));
   CHECK(paint_share(ground, o.ground, 2.45F + 0.053F, 0.3F, tiny) == doctest::Approx(0.0F));
   CHECK(paint_share(ground, o.ground, 0.0F, 0.5F, tiny) == doctest::Approx(1.0F).epsilon(0.002));
-  CHECK(paint_share(ground, o.ground, 0.3F, 0.4F, tiny) == doctest::Approx(1.0F).epsilon(0.002));   // the circle
+  CHECK(paint_share(ground, o.ground, 0.3F, 0.4F, tiny) == doctest::Approx(1.0F).epsilon(0.002));  // the circle
   CHECK(paint_share(ground, o.ground, 0.3F, 0.3F, tiny) == doctest::Approx(0.0F));
-  CHECK(paint_share(ground, o.ground, 2.05F, 0.5F, tiny) == doctest::Approx(1.0F).epsilon(0.002));  // goal area
-  CHECK(paint_share(ground, o.ground, 1.25F, 0.02F, tiny) == doctest::Approx(1.0F).epsilon(0.002)); // penalty mark
-  CHECK(paint_share(ground, o.ground, 2.49F, 1.49F, tiny) == doctest::Approx(1.0F).epsilon(0.002)); // the corner is square
+  CHECK(paint_share(ground, o.ground, 2.05F, 0.5F, tiny) == doctest::Approx(1.0F).epsilon(0.002));   // goal area
+  CHECK(paint_share(ground, o.ground, 1.25F, 0.02F, tiny) == doctest::Approx(1.0F).epsilon(0.002));  // penalty mark
+  CHECK(paint_share(ground, o.ground, 2.49F, 1.49F, tiny) ==
+        doctest::Approx(1.0F).epsilon(0.002));  // the corner is square
 }
 
 TEST_CASE("ground: coverage is the share of the pixel's area") {
@@ -53,7 +54,8 @@ TEST_CASE("ground: worn paint is darker; the carpet ends at its border") {
   Ground ground;
   ground.build(o.field, o.ground, 1);
   float sum = 0.0F;
-  for (int i = 0; i < 100; ++i) sum += paint_share(ground, o.ground, 2.45F, -1.0F + 0.02F * static_cast<float>(i), 0.001F);
+  for (int i = 0; i < 100; ++i)
+    sum += paint_share(ground, o.ground, 2.45F, -1.0F + 0.02F * static_cast<float>(i), 0.001F);
   CHECK(sum / 100.0F == doctest::Approx(0.5F).epsilon(0.2));
   const Footprint pixel{0.001F, 0.0F, 0.0F, 0.001F};
   const Rgb inside = ground.color(3.09F, 0.0F, pixel);
