@@ -79,7 +79,7 @@ std::string list_gpio_chips() {
   gpiod_chip_iter* chips = gpiod_chip_iter_new();
   if (chips == nullptr) return text;
   while (gpiod_chip* chip = gpiod_chip_iter_next(chips)) {  // the iterator closes each chip
-    text += std::string("/dev/") + gpiod_chip_name(chip) + "  " + gpiod_chip_label(chip) + "  " +
+    text += std::string("  /dev/") + gpiod_chip_name(chip) + "  " + gpiod_chip_label(chip) + "  " +
             std::to_string(gpiod_chip_num_lines(chip)) + " lines\n";
   }
   gpiod_chip_iter_free(chips);

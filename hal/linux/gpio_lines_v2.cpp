@@ -110,7 +110,7 @@ std::string list_gpio_chips() {
     gpiod_chip* chip = gpiod_is_gpiochip_device(path.c_str()) ? gpiod_chip_open(path.c_str()) : nullptr;
     if (chip == nullptr) continue;
     if (gpiod_chip_info* info = gpiod_chip_get_info(chip)) {
-      text += path + "  " + gpiod_chip_info_get_label(info) + "  " +
+      text += "  " + path + "  " + gpiod_chip_info_get_label(info) + "  " +
               std::to_string(gpiod_chip_info_get_num_lines(info)) + " lines\n";
       gpiod_chip_info_free(info);
     }

@@ -11,6 +11,7 @@
 #include "platform/host/command_simulate.h"
 #include "platform/host/demo.h"
 #include "platform/host/host_error.h"
+#include "platform/host/robot_commands.h"
 
 namespace touchline::host {
 namespace {
@@ -56,6 +57,7 @@ struct Commands {
   AcceptCommand accept;
   SimulateCommand simulate;
   DemoCommand demo;
+  RobotCommand robot;
   WorkSize work;
 };
 
@@ -142,6 +144,19 @@ void add_memory(CLI::App& app) {
   sub->footer(std::string("Example: touchline memory") + exit_text);
 }
 
+void add_robot(CLI::App& app, Commands& commands) {
+  RobotCommand& command = commands.robot;
+  auto* run = app.add_subcommand("run", "the robot daemon: frames, odometry and yaw in, a JSON line per pose out");
+  run->add_option("FILE", command.file, "the robot's TOML file")->required();
+  run->add_option("--frames", command.frames, "end after so many frames; 0: run until SIGTERM")->capture_default_str();
+  run->footer(std::string("Example: touchline run /etc/touchline/robot.toml") + exit_text);
+  auto* check = app.add_subcommand("check", "says what is wrong with the robot's TOML file; opens no device");
+  check->add_option("FILE", command.file, "the robot's TOML file")->required();
+  check->footer(std::string("Example: touchline check /etc/touchline/robot.toml") + exit_text);
+  auto* devices = app.add_subcommand("devices", "cameras, HID devices, serial ports and GPIO chips that are plugged in");
+  devices->footer(std::string("Example: touchline devices") + exit_text);
+}
+
 int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream& err) {
   commands.work.apply(commands.evaluate.options.chain);
   commands.work.apply(commands.locate.options.chain);
@@ -151,6 +166,9 @@ int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream
   if (app.got_subcommand("simulate")) return run_simulate(commands.simulate, out);
   if (app.got_subcommand("demo")) return run_demo(commands.demo, out);
   if (app.got_subcommand("memory")) return run_memory(out);
+  if (app.got_subcommand("run")) return run_robot(commands.robot, out, err);
+  if (app.got_subcommand("check")) return check_robot(commands.robot, out);
+  if (app.got_subcommand("devices")) return list_devices(out);
   out << app.help();
   return exit_ok;
 }
@@ -169,6 +187,7 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
   add_simulate(app, commands);
   add_demo(app, commands);
   add_memory(app);
+  add_robot(app, commands);
   try {
     app.parse(argc, argv);
     return run(app, commands, out, err);

@@ -30,6 +30,7 @@ void Sensors::service_imu(MonotonicNs now, EventFaults& events) {
   if (!imu_->health().open) {
     imu_fresh_ = false;
     if (!imu_retry_.due(now, config_.reopen) || imu_->open() != Status::ok) return;
+    imu_heard_ = now;
     if (!yaw_.empty()) {
       const float theta = odometry_.empty() ? theta_at_yaw_ : odometry_.newest().theta;
       yaw_.reattach(angle_difference(theta, theta_at_yaw_));
@@ -43,7 +44,8 @@ void Sensors::service_imu(MonotonicNs now, EventFaults& events) {
   const std::uint32_t corrupt = imu_->health().corrupt;
   if (corrupt != imu_corrupt_) events.note(Fault::imu_garbage, now);
   imu_corrupt_ = corrupt;
-  imu_fresh_ = !yaw_.empty() && now - imu_heard_ <= config_.imu_stale;
+  imu_silent_ = now - imu_heard_ > config_.imu_stale;
+  imu_fresh_ = !yaw_.empty() && !imu_silent_;
 }
 
 void Sensors::take(const ImuSample& sample, MonotonicNs now, EventFaults& events) {
@@ -61,6 +63,7 @@ void Sensors::service_gait(MonotonicNs now, EventFaults& events) {
     gait_fresh_ = false;
     return;
   }
+  if (!was_open) gait_heard_ = now;
   for (int i = 0; i < max_reads; ++i) {
     const Result<GaitSample> sample = gait_->read();
     if (!sample.ok()) break;
@@ -70,7 +73,8 @@ void Sensors::service_gait(MonotonicNs now, EventFaults& events) {
   const std::uint32_t corrupt = health.corrupt + health.stale;
   if (corrupt != gait_corrupt_) events.note(Fault::gait_corrupt, now);
   gait_corrupt_ = corrupt;
-  gait_fresh_ = has_state_ && now - gait_heard_ <= config_.gait_stale;
+  gait_silent_ = now - gait_heard_ > config_.gait_stale;
+  gait_fresh_ = has_state_ && !gait_silent_;
 }
 
 void Sensors::take(const GaitSample& sample, MonotonicNs now, EventFaults& events) {
@@ -150,12 +154,12 @@ void Sensors::add_faults(FaultSet& faults) const {
   if (imu_ != nullptr) {
     const bool open = imu_->health().open;
     faults.set(Fault::imu_missing, !open);
-    faults.set(Fault::imu_stale, open && !imu_fresh_);
+    faults.set(Fault::imu_stale, open && imu_silent_);
   }
   if (gait_ != nullptr) {
     const bool open = gait_->health().open;
     faults.set(Fault::gait_missing, !open);
-    faults.set(Fault::gait_silent, open && !gait_fresh_);
+    faults.set(Fault::gait_silent, open && gait_silent_);
   }
   faults.set(Fault::fallen, fallen());
   faults.set(Fault::lifted, lifted());

@@ -79,7 +79,9 @@ class Sensors {
   GaitSample state_;
   bool has_state_ = false;
   bool gait_fresh_ = false;
-  bool imu_fresh_ = false;
+  bool imu_fresh_ = false;   // its newest sample may be used
+  bool imu_silent_ = false;  // it has said nothing for too long, since its opening or its last sample
+  bool gait_silent_ = false;
   MonotonicNs gait_heard_ = 0;
   bool path_broken_ = false;  // the newest sample was a jump, not yet known to stay
   double unknown_s_ = 0.0;

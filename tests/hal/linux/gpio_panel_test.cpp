@@ -168,7 +168,7 @@ TEST_CASE("a chip that is unplugged is disconnected and comes back by open()") {
 
 TEST_CASE("chips are listed") {
   Bench bench;
-  CHECK(list_gpio_chips() == "/dev/gpiochip0  fake  8 lines\n");
+  CHECK(list_gpio_chips() == "  /dev/gpiochip0  fake  8 lines\n");
   bench.device.present = false;
   CHECK(list_gpio_chips().empty());
 }

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/sbc/daemon.h"
+
+#include <cstring>
+
+#include "hal/linux/gpio_panel.h"
+#include "hal/linux/hid_imu.h"
+#include "hal/linux/monotonic_clock.h"
+#include "hal/linux/serial_gait_link.h"
+#include "hal/linux/v4l2_camera.h"
+#include "hal/mock/manual_clock.h"
+#include "hal/replay/replay.h"
+#include "platform/host/host_error.h"
+#include "vision/pipeline_storage.h"
+
+namespace touchline::sbc {
+
+struct DeviceSet::Parts {
+  MonotonicClock clock;
+  ManualClock replay_clock;  // a recording is played as fast as it is used
+  std::unique_ptr<Replay> replay;
+  std::unique_ptr<V4l2Camera> camera;
+  std::unique_ptr<HidImu> imu;
+  std::unique_ptr<SerialGaitLink> gait;
+  std::unique_ptr<GpioPanel> panel;
+};
+
+DeviceSet::DeviceSet(const RobotFile& file) : parts_(std::make_unique<Parts>()) {
+  Parts& parts = *parts_;
+  if (file.camera_backend == CameraBackend::replay) {
+    ReplayOptions options;
+    options.loops = file.replay_loops;
+    parts.replay = std::make_unique<Replay>(file.replay_folder, parts.replay_clock, options);
+  } else {
+    parts.camera = std::make_unique<V4l2Camera>(file.camera, parts.clock);
+  }
+  Clock& clock = *devices().clock;
+  if (file.imu_backend == ImuBackend::hidapi) parts.imu = std::make_unique<HidImu>(file.imu, clock);
+  if (file.gait_backend == GaitBackend::serial) parts.gait = std::make_unique<SerialGaitLink>(file.gait, clock);
+  if (file.panel_backend == PanelBackend::gpiod) parts.panel = std::make_unique<GpioPanel>(file.panel, file.button);
+  use_replay_imu_ = file.imu_backend == ImuBackend::replay;
+  use_replay_gait_ = file.gait_backend == GaitBackend::replay;
+}
+DeviceSet::~DeviceSet() = default;
+
+RobotDevices DeviceSet::devices() const {
+  Parts& parts = *parts_;
+  RobotDevices devices;
+  devices.clock = &parts.clock;
+  devices.camera = parts.camera.get();
+  devices.imu = parts.imu.get();
+  devices.gait = parts.gait.get();
+  devices.panel = parts.panel.get();
+  if (parts.replay == nullptr) return devices;
+  devices.clock = &parts.replay_clock;
+  devices.camera = &parts.replay->camera();
+  if (use_replay_imu_) devices.imu = &parts.replay->imu();
+  if (use_replay_gait_) devices.gait = &parts.replay->gait();
+  return devices;
+}
+
+const char* DeviceSet::detail(Fault fault) const {
+  const Parts& parts = *parts_;
+  switch (fault) {
+    case Fault::camera_missing:
+    case Fault::camera_size:
+    case Fault::camera_stalled: return parts.camera != nullptr ? parts.camera->problem() : "";
+    case Fault::imu_missing: return parts.imu != nullptr ? parts.imu->problem() : "";
+    case Fault::gait_missing: return parts.gait != nullptr ? parts.gait->problem() : "";
+    case Fault::panel_missing: return parts.panel != nullptr ? parts.panel->problem() : "";
+    default: return "";
+  }
+}
+
+Daemon::Daemon(const std::filesystem::path& path, int out, int log)
+    : path_(path),
+      file_(read_robot_file(path)),
+      devices_(file_),
+      storage_(std::make_unique<PipelineStorage<>>()),
+      localizer_(std::make_unique<Localizer>()),
+      loop_(std::make_unique<RobotLoop>(devices_.devices(), storage_->memory(), *localizer_)),
+      publisher_(file_.output.standard_output ? out : -1, file_.output.udp),
+      log_(log) {
+  const char* what = nullptr;
+  if (loop_->configure(file_.robot, &what) != Status::ok) {
+    throw host::HostError(path.string() +
+                          ": is refused: " + (what != nullptr ? what : "its values do not fit together"));
+  }
+}
+Daemon::~Daemon() = default;
+
+bool Daemon::turn() {
+  const Status status = loop_->turn(report_);
+  if (status == Status::end_of_data) return false;
+  if (status != Status::ok) return true;
+  ++published_;
+  if (!publisher_.publish(line_.format(report_))) loop_->note_output_failure();
+  log_.update(report_.faults, now(), [this](Fault fault) {
+    return fault == Fault::output ? std::strerror(publisher_.last_error()) : devices_.detail(fault);
+  });
+  return true;
+}
+
+void Daemon::reload() {
+  const char* what = nullptr;
+  try {
+    const RobotFile file = read_robot_file(path_);
+    RobotConfig config = file_.robot;  // devices stay as they are
+    config.vision = file.robot.vision;
+    config.vision.frame_width = file_.robot.vision.frame_width;
+    config.vision.frame_height = file_.robot.vision.frame_height;
+    config.localizer = file.robot.localizer;
+    if (loop_->configure(config, &what) == Status::ok) {
+      file_.robot = config;
+      log_.line(now(), "thresholds read again from ", path_.string(), "");
+    } else {
+      log_.line(now(), "thresholds stay: ", path_.string(), what != nullptr ? what : "refused");
+    }
+  } catch (const host::HostError& error) {
+    log_.line(now(), "thresholds stay: ", error.what(), "");
+  }
+}
+
+}  // namespace touchline::sbc

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// The robot's file: its example is complete and good, and every mistake is told with file, line, key and remedy.
+#include "platform/sbc/robot_file.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "platform/host/host_error.h"
+#include "tests/host/temp_folder.h"
+
+namespace touchline::sbc {
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The error that a file of this text gives; empty when it is good.
+std::string error_of(const std::string& text) {
+  const host::TempFolder temp;
+  const auto path = temp.write("robot.toml", text);
+  try {
+    (void)read_robot_file(path);
+    return {};
+  } catch (const host::HostError& error) {
+    const std::string message = error.what();
+    CHECK(message.find(path.string()) == 0);  // the file comes first
+    return message.substr(path.string().size());
+  }
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("the example is good, names every key, and holds the defaults") {
+  const std::string path = std::string(TOUCHLINE_SOURCE_DIR) + "/platform/sbc/robot.toml";
+  std::vector<std::string> keys;
+  const RobotFile example = read_robot_file(path, &keys);
+  const std::string text = read_text(path);
+  for (const std::string& key : keys) {
+    const std::string name = key.substr(key.rfind('.') + 1);
+    INFO(doctest::String(key.c_str()));
+    CHECK((contains(text, name + " = ") || contains(text, "[" + name + "]")));
+  }
+  const host::TempFolder temp;
+  const RobotFile empty = read_robot_file(temp.write("robot.toml", ""));
+  CHECK(example.camera.width == empty.camera.width);
+  CHECK(example.camera.rate_hz == empty.camera.rate_hz);
+  CHECK(example.robot.lens.focal_px == empty.robot.lens.focal_px);
+  CHECK(example.robot.lens.cx == empty.robot.lens.cx);
+  CHECK(example.robot.lens.max_theta == empty.robot.lens.max_theta);
+  CHECK(example.robot.field.length == empty.robot.field.length);
+  CHECK(example.robot.field.penalty_mark == empty.robot.field.penalty_mark);
+  CHECK(example.robot.mount.height == empty.robot.mount.height);
+  CHECK(example.robot.mount.neck.z == empty.robot.mount.neck.z);
+  CHECK(example.robot.vision.green.hue_low == empty.robot.vision.green.hue_low);
+  CHECK(example.robot.vision.green.value_low == empty.robot.vision.green.value_low);
+  CHECK(example.robot.vision.yellow_post.hue_high == empty.robot.vision.yellow_post.hue_high);
+  CHECK(example.robot.vision.spur_px == empty.robot.vision.spur_px);
+  CHECK(example.robot.vision.digestion_radius_px == empty.robot.vision.digestion_radius_px);
+  CHECK(example.robot.localizer.particles == empty.robot.localizer.particles);
+  CHECK(example.robot.localizer.confident == doctest::Approx(empty.robot.localizer.confident));
+  CHECK(example.robot.localizer.motion.theta_per_metre ==
+        doctest::Approx(empty.robot.localizer.motion.theta_per_metre).epsilon(0.01));
+  CHECK(example.robot.localizer.yaw_sigma == doctest::Approx(empty.robot.localizer.yaw_sigma));
+  CHECK(example.robot.prior.sigma_theta == doctest::Approx(empty.robot.prior.sigma_theta));
+  CHECK(example.robot.camera_stall == empty.robot.camera_stall);
+  CHECK(example.robot.gait_stale == empty.robot.gait_stale);
+  CHECK(example.robot.unknown_turn == doctest::Approx(empty.robot.unknown_turn));
+  CHECK(example.gait.transport == empty.gait.transport);
+  CHECK(example.button.debounce == empty.button.debounce);
+  CHECK(example.imu.layout.length == empty.imu.layout.length);
+  CHECK(example.realtime.lock_memory == empty.realtime.lock_memory);
+  CHECK_FALSE(empty.robot.goal_yaw_known);
+  CHECK(empty.output.udp.empty());
+}
+
+TEST_CASE("an unknown key is told with its line and the nearest right one") {
+  CHECK(contains(error_of("[camera]\nwith_px = 640\n"),
+                 ":2: camera.with_px is no key of this program; did you mean width_px?"));
+  CHECK(contains(error_of("\n\n[camra]\n"), ":3: camra is no key of this program; did you mean camera?"));
+  CHECK(contains(error_of("[realtime]\nxyzzy = 1\n"), "here are known: lock_memory, priority, cpu"));
+  CHECK(
+      contains(error_of("[localization]\nprior = { kind = \"pose\", x = 1 }\n"), ":2: localization.prior.x is no key"));
+}
+
+TEST_CASE("wrong types are told") {
+  CHECK(contains(error_of("[camera]\nwidth_px = \"640\"\n"), ":2: camera.width_px is a text; write a number"));
+  CHECK(contains(error_of("[camera]\nwidth_px = 640.5\n"), "write a whole number"));
+  CHECK(contains(error_of("[camera]\ndevice = 0\n"), ":2: camera.device is a number; write a text in quotation marks"));
+  CHECK(contains(error_of("[mount]\nfixed_head = 1\n"), "write true or false"));
+  CHECK(contains(error_of("camera = 1\n"), "write a table, [camera]"));
+  CHECK(contains(error_of("[output]\nudp = \"127.0.0.1:1\"\n"), "write a list of texts"));
+  CHECK(contains(error_of("[output]\nudp = [1]\n"), "write texts in quotation marks"));
+  CHECK(contains(error_of("[lens]\nk = 1\n"), "write a list of numbers"));
+  CHECK(contains(error_of("[lens]\nk = [1, \"a\", 3, 4]\n"), "write a number"));
+  CHECK(contains(error_of("[vision]\nbody_mask_px = [1]\n"), "list of lists"));
+}
+
+TEST_CASE("impossible values are told with the range") {
+  CHECK(contains(error_of("[mount]\nheight_m = -0.5\n"), ":2: mount.height_m is -0.5; write a number from 0.05 to 3"));
+  CHECK(contains(error_of("[mount]\nheight_m = nan\n"), "mount.height_m is nan"));
+  CHECK(contains(error_of("[camera]\nwidth_px = 641\n"), "odd"));
+  CHECK(contains(error_of("[camera]\nwidth_px = 99999999999\n"), "write a number from 16"));
+  CHECK(contains(error_of("[camera]\nexposure = \"fixed\"\n"), "camera.exposure_100us is missing"));
+  CHECK(contains(error_of("[camera]\nbackend = \"replay\"\n"), "replay_folder is missing"));
+  CHECK(contains(error_of("[imu]\nbackend = \"replay\"\n"), "camera is not replayed"));
+  CHECK(contains(error_of("[gait]\nbackend = \"replay\"\n"), "camera is not replayed"));
+  CHECK(contains(error_of("[gait]\nbaud = 12345\n"), "no rate of a serial port"));
+  CHECK(contains(error_of("[imu]\nbackend = \"hidapi\"\ndevice = \"mouse\"\n"), ":3: imu.device is no name"));
+  CHECK(contains(error_of("[imu]\nbackend = \"hidapi\"\nprofile = \"custom\"\n"), "neither yaw nor a quaternion"));
+  CHECK(contains(error_of("[imu]\nstart_report = [256]\n"), "no byte"));
+  CHECK(contains(error_of("[panel]\nbackend = \"gpiod\"\n"), "led_line are both missing"));
+  CHECK(contains(error_of("[vision]\ngreen_erode_px = 4\n"), "is even"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 2, 3]\n"), "has 3 numbers; write 6"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 2, 3, 4, 5, 256]\n"), "outside 0 to 255"));
+  CHECK(contains(error_of("[vision]\nbody_mask_px = [[1, 2, 3]]\n"), "polygon of 3 numbers"));
+  CHECK(contains(error_of("[lens]\nmodel = \"fisheye\"\n"), "write one of"));
+  CHECK(contains(error_of("[lens]\nmodel = \"equidistance\"\n"), "did you mean \"equidistant\"?"));
+  CHECK(contains(error_of("[field]\nlength_m = 0.0\n"), "[field] is refused"));
+}
+
+TEST_CASE("what is no TOML, no file, or a folder is told") {
+  CHECK(contains(error_of("[camera\nwidth_px = 1\n"), ":1: is no TOML"));
+  CHECK_THROWS_AS((void)read_robot_file("/no/such/robot.toml"), host::HostError);
+  CHECK_THROWS_AS((void)read_robot_file("/tmp"), host::HostError);
+}
+
+TEST_CASE("a custom IMU layout is read") {
+  const host::TempFolder temp;
+  const RobotFile file = read_robot_file(temp.write("robot.toml", R"([imu]
+backend = "hidapi"
+device = "/dev/hidraw3"
+profile = "custom"
+report_id = 7
+report_length = 0
+yaw = { offset = 3, type = "float32", big_endian = true, scale = 2.0, unit = "deg", inverted = true }
+goal_yaw_deg = 90
+)"));
+  const HidReportLayout& layout = file.imu.layout;
+  CHECK(layout.report_id == 7);
+  CHECK(layout.yaw.present);
+  CHECK(layout.yaw.offset == 3);
+  CHECK(layout.yaw.number == HidNumber::float32);
+  CHECK(layout.yaw.big_endian);
+  CHECK(layout.yaw.unit == AngleUnit::degree);
+  CHECK(layout.yaw.inverted);
+  CHECK_FALSE(layout.roll.present);
+  CHECK(file.robot.goal_yaw_known);
+  CHECK(file.robot.goal_yaw == doctest::Approx(math::half_pi));
+}
+
+TEST_CASE("a replayed set brings camera, lens, mount and field along") {
+  const RobotFile file = read_robot_file(std::string(TOUCHLINE_SOURCE_DIR) + "/fixtures/robot-replay.toml");
+  CHECK(file.camera_backend == CameraBackend::replay);
+  CHECK(file.imu_backend == ImuBackend::replay);
+  CHECK(file.robot.vision.frame_width == 376);
+  CHECK(file.robot.lens.model == LensModel::equidistant);
+  CHECK(file.robot.field.length == doctest::Approx(4.9F));
+  CHECK(file.robot.vision.line_width_m == file.robot.field.line_width);
+  CHECK(file.robot.goal_yaw_known);
+}
+
+}  // namespace
+}  // namespace touchline::sbc
