@@ -41,7 +41,7 @@ golden: build  ## writes the golden outputs anew, for changes of behaviour that 
 
 accept: build  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
 	@[ -n "$(DATA)" ] || { echo "Which data? Say: make accept DATA=folder" >&2; exit 2; }
-	@$(TOUCHLINE) accept "$(DATA)" $(if $(wildcard $(FIGURES)),--figures $(FIGURES))
+	@$(TOUCHLINE) accept "$(DATA)" --output $(BUILD)/accept.json --figures $(FIGURES) $(if $(REWRITE),--rewrite)
 
 bench: build  ## times per stage on the fixtures, in microseconds
 	@$(TOUCHLINE) evaluate $(sort $(dir $(wildcard fixtures/*/frames.jsonl))) | grep -E '^[a-z].*frames,|median us'

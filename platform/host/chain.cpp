@@ -81,6 +81,11 @@ const VisionResult& Chain::see(const FrameView& image, double time_s, const Came
                                StageObserver* observer) {
   const char* what = nullptr;
   if (!same(camera, parts_->camera)) {
+    if (camera.width < parts_->options.work_width || camera.height < parts_->options.work_height) {
+      throw HostError("images of " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+                      " are smaller than the working size " + std::to_string(parts_->options.work_width) + "x" +
+                      std::to_string(parts_->options.work_height) + "; choose a smaller --work or larger images");
+    }
     VisionConfig config;
     config.frame_width = camera.width;
     config.frame_height = camera.height;

@@ -109,7 +109,8 @@ void add_simulate(CLI::App& app, Commands& commands) {
       ->type_name("walk|poses")
       ->capture_default_str();
   sub->add_option("--field", command.field, "a preset")->capture_default_str();
-  sub->add_option("--camera", command.camera, "fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb")->capture_default_str();
+  sub->add_option("--camera", command.camera, "fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb")
+      ->capture_default_str();
   sub->add_option("--seed", command.seed, "seed of everything")->capture_default_str();
   sub->add_option("--seconds", command.seconds, "length of a walk")
       ->check(CLI::Range(0.1, 3600.0))

@@ -50,9 +50,19 @@ gate_golden() {
     compile "$cc-O0" --target golden_outputs && run_tests "$cc-O0" -R '^golden$' || return 1
   done
 }
+# The acceptance figures, where the data sets lie beside the project (or TOUCHLINE_DATA names their folder).
+gate_accept() {
+  local data
+  for data in "${TOUCHLINE_DATA:-}" ../*/data; do
+    [ -d "$data/render-table2" ] || continue
+    make --no-print-directory accept DATA="$data" 2>"$checks/accept.log" || { cat "$checks/accept.log"; return 1; }
+    return 0
+  done
+  echo "skipped: no data sets beside the project, and TOUCHLINE_DATA names none"
+}
 gate_tidy() { configure clang clang clang++ && bash tests/gates/tidy.sh "$checks/clang"; }
 
-all=(format test clang core sanitize tidy golden)
+all=(format test clang core sanitize tidy golden accept)
 mkdir -p "$checks"
 for gate in "${@:-${all[@]}}"; do
   declare -F "gate_$gate" >/dev/null || { echo "all.sh: unknown gate '$gate' (${all[*]})" >&2; exit 2; }

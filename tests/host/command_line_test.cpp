@@ -134,7 +134,7 @@ TEST_CASE("locate needs no frames.jsonl") {
   const std::string image = (folder.path() / "images/0.png").string();
   CHECK(run({"locate", "--camera", camera, image}).status == 0);
   check_refused(run({"locate", "--camera", camera, image, "--work", "640x480", "--json"}),
-                "vision refuses its configuration");
+                "smaller than the working size 640x480");
   check_refused(run({"locate", "--camera", camera, image + "x"}), "no such image");
   check_refused(run({"locate", "--camera", image, image}), "not valid TOML");
 }
@@ -166,6 +166,23 @@ TEST_CASE("every kind of bad input is one clear line and status 2") {
   const std::string whole = folder.read("images/0.png");
   folder.write("images/0.png", whole.substr(0, whole.size() / 2));
   check_refused(run({"evaluate", path, "--json"}), "images/0.png: this PNG cannot be read");
+}
+
+TEST_CASE("demo: the robot is kidnapped and found again; stages, field and figures are written") {
+  const TempFolder folder;
+  const std::string output = (folder.path() / "demo").string();
+  const Run result = run({"demo", "--seconds", "4", "--output", output});
+  CAPTURE(result.out);
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "truth"));
+  CHECK(contains(result.out, "picked up and put down elsewhere"));
+  const auto summary = nlohmann::json::parse(folder.read("demo/summary.json"));
+  CHECK(summary.at("frames") == 49);  // 12 a second, both ends
+  CHECK(summary.at("back_s").size() == 1);
+  CHECK(summary.at("rmse_m").get<double>() < 0.10);
+  CHECK(read_image(folder.path() / "demo/field.png").width > 500);
+  std::ifstream stages(folder.path() / "demo/stages.png", std::ios::binary);  // larger than a camera's image
+  CHECK(stages.seekg(0, std::ios::end).tellg() > 100000);
 }
 
 TEST_CASE("memory prints the budget") {

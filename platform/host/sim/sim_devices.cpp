@@ -2,6 +2,9 @@
 #include "platform/host/sim/sim_devices.h"
 
 #include <algorithm>
+#include <span>
+
+#include "platform/core/elementary.h"
 
 namespace touchline::sim {
 namespace {
@@ -24,7 +27,25 @@ Result<T> take(std::deque<T>& waiting, DeviceHealth& health) {
   return oldest;
 }
 
-MonotonicNs clock_time(double simulated_s) { return one_second + from_seconds(simulated_s); }
+/// How long a hand takes to carry the robot elsewhere, and how often the devices report meanwhile. No IMU would believe
+/// half a turn between two of its readings.
+constexpr MonotonicNs carrying = 600 * one_millisecond;
+constexpr int readings_while_carried = 30;
+
+/// The reading after which the robot was somewhere else: the largest turn between two.
+std::size_t first_after_kidnap(std::span<const SimReading> readings, float yaw_before) {
+  std::size_t found = 0;
+  float largest = -1.0F;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const float turn = math::abs(readings[i].yaw - yaw_before);
+    if (turn > largest) {
+      largest = turn;
+      found = i;
+    }
+    yaw_before = readings[i].yaw;
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -50,44 +71,81 @@ void SimGaitLink::push(const GaitSample& sample) {
 SimRobot::SimRobot(const WalkScenarioOptions& options, double seconds, PixelFormat format)
     : walk_(options), seconds_(seconds), format_(format) {}
 
-void SimRobot::push_readings() {
+MonotonicNs SimRobot::time_at(double simulated_s) const { return one_second + from_seconds(simulated_s) + carried_; }
+
+void SimRobot::take_reading(const SimReading& reading, MonotonicNs time) {
   const WalkScenarioOptions& options = walk_.options();
-  for (const SimReading& reading : walk_.readings()) {
-    ImuSample imu;
-    imu.time = clock_time(reading.time_s);
-    imu.yaw = reading.yaw;
-    imu.has_tilt = true;
-    imu.pitch = reading.mount.pitch - options.walk.camera.pitch;
-    imu.roll = reading.mount.roll - options.walk.camera.roll;
-    if (options.yaw) imu_.push(imu);
-    GaitSample gait;
-    gait.time = imu.time;
-    gait.sequence = samples_++;
-    gait.boot_id = 1;
-    gait.odometry = reading.odometry;
-    gait.has_camera_attitude = true;
-    gait.camera_height = reading.mount.height;
-    gait.camera_pitch = reading.mount.pitch;
-    gait.camera_roll = reading.mount.roll;
-    gait.support = SupportFoot::unknown;
-    gait.walking = reading.activity == Activity::walking || reading.activity == Activity::turning;
-    gait.standing = reading.activity == Activity::halted;
-    gait.fallen = reading.activity == Activity::fallen;
-    gait.lifted = reading.activity == Activity::lifted;
-    gait_.push(gait);
+  ImuSample imu;
+  imu.time = time;
+  imu.yaw = reading.yaw;
+  imu.has_tilt = true;
+  imu.pitch = reading.mount.pitch - options.walk.camera.pitch;
+  imu.roll = reading.mount.roll - options.walk.camera.roll;
+  GaitSample gait;
+  gait.time = time;
+  gait.sequence = samples_++;
+  gait.boot_id = 1;
+  gait.odometry = reading.odometry;
+  gait.has_camera_attitude = true;
+  gait.camera_height = reading.mount.height;
+  gait.camera_pitch = reading.mount.pitch;
+  gait.camera_roll = reading.mount.roll;
+  gait.support = SupportFoot::unknown;
+  gait.walking = reading.activity == Activity::walking || reading.activity == Activity::turning;
+  gait.standing = reading.activity == Activity::halted;
+  gait.fallen = reading.activity == Activity::fallen;
+  gait.lifted = reading.activity == Activity::lifted;
+  due_.push_back({imu, gait});
+  last_reading_ = reading;
+}
+
+/// The hand turns the robot evenly; its feet do not move.
+void SimRobot::carry(const SimReading& to) {
+  SimReading on_the_way = last_reading_;
+  const MonotonicNs start = time_at(last_reading_.time_s);
+  for (int i = 1; i <= readings_while_carried; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(readings_while_carried);
+    on_the_way.yaw = last_reading_yaw_ + (to.yaw - last_reading_yaw_) * share;
+    take_reading(on_the_way, start + carrying * i / readings_while_carried);
+  }
+  carried_ += carrying;
+}
+
+void SimRobot::take_readings() {
+  const auto readings = walk_.readings();
+  const std::size_t kidnap = frame_.kidnapped ? first_after_kidnap(readings, last_reading_.yaw) : readings.size();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    last_reading_yaw_ = last_reading_.yaw;
+    if (i == kidnap) carry(readings[i]);
+    take_reading(readings[i], time_at(readings[i].time_s));
+  }
+}
+
+/// Time goes on, and the devices say what is due.
+void SimRobot::advance_clock(MonotonicNs to) {
+  clock_.advance_to(to);
+  while (!due_.empty() && due_.front().imu.time <= clock_.now()) {
+    if (walk_.options().yaw) imu_.push(due_.front().imu);
+    gait_.push(due_.front().gait);
+    due_.pop_front();
   }
 }
 
 Status SimRobot::advance(MonotonicNs deadline, std::vector<std::uint8_t>& pixels, CameraFrame& out) {
   const double next_s = static_cast<double>(next_index_) / static_cast<double>(walk_.options().frames_per_second);
   if (next_s > seconds_) return Status::end_of_data;
-  if (clock_time(next_s) > deadline && clock_.now() < clock_time(next_s)) {
-    clock_.advance_to(deadline);
+  const auto is_late = [&] { return time_at(next_s) > deadline && clock_.now() < time_at(next_s); };
+  if (!drawn_ && !is_late()) {
+    frame_ = walk_.next();
+    drawn_ = true;
+    take_readings();  // of a kidnap: the frame is later than was thought
+  }
+  if (is_late()) {
+    advance_clock(deadline);
     return Status::timeout;
   }
-  frame_ = walk_.next();
   next_index_ += 1;
-  push_readings();
+  drawn_ = false;
   rgb_.assign(frame_.image.data,
               frame_.image.data + static_cast<std::ptrdiff_t>(frame_.image.stride_bytes) * frame_.image.height);
   const int width = frame_.image.width;
@@ -100,9 +158,9 @@ Status SimRobot::advance(MonotonicNs deadline, std::vector<std::uint8_t>& pixels
   }
   out = {};
   out.image = {format_, pixels.data(), width, height, width * bytes_per_pixel(format_)};
-  out.time = clock_time(next_s);
+  out.time = time_at(next_s);
   out.sequence = static_cast<std::uint64_t>(frame_.index);
-  clock_.advance_to(out.time);
+  advance_clock(out.time);
   return Status::ok;
 }
 

@@ -91,6 +91,7 @@ class SimCamera final : public Camera {
 };
 
 /// One simulated robot with all its devices. Ends after `seconds` of simulated time (end_of_data from the camera).
+/// A kidnap takes 0.6 s of device time without a frame, in which the IMU feels the turn and the gait reports no step.
 class SimRobot {
  public:
   SimRobot(const WalkScenarioOptions& options, double seconds, PixelFormat format = PixelFormat::rgb24);
@@ -107,15 +108,28 @@ class SimRobot {
 
  private:
   friend class SimCamera;
+  struct Reading {
+    ImuSample imu;
+    GaitSample gait;
+  };
   /// Goes on to the next frame, unless that is after `deadline` or the end.
   Status advance(MonotonicNs deadline, std::vector<std::uint8_t>& pixels, CameraFrame& out);
-  void push_readings();
+  [[nodiscard]] MonotonicNs time_at(double simulated_s) const;
+  void take_reading(const SimReading& reading, MonotonicNs time);
+  void take_readings();
+  void carry(const SimReading& to);
+  void advance_clock(MonotonicNs to);
 
   WalkScenario walk_;
   double seconds_;
   PixelFormat format_;
   SimFrame frame_;
   int next_index_ = 0;
+  bool drawn_ = false;       // frame_ is the next one, but not due yet
+  std::deque<Reading> due_;  // that the devices have not said yet
+  SimReading last_reading_;
+  float last_reading_yaw_ = 0.0F;  // of the reading before
+  MonotonicNs carried_ = 0;        // device time that kidnaps have taken; the truth's time leaves it out
   std::uint32_t samples_ = 0;
   std::vector<std::uint8_t> rgb_;
   SimClock clock_;

@@ -84,6 +84,44 @@ TEST_CASE("devices: waiting for too short a time is a timeout and costs that tim
   CHECK(robot->camera().acquire(now + 100 * one_millisecond).ok());
 }
 
+TEST_CASE("devices: a kidnap takes time, in which no frame comes, the IMU feels the turn and the gait no step") {
+  WalkScenarioOptions options = tiny_walk();
+  options.yaw = true;
+  options.kidnap_at_s = 0.5;
+  auto robot = std::make_unique<SimRobot>(options, 1.0);
+  REQUIRE(robot->camera().open() == Status::ok);
+  REQUIRE(robot->imu().open() == Status::ok);
+  REQUIRE(robot->gait().open() == Status::ok);
+  MonotonicNs before = 0;
+  bool seen = false;
+  float largest_turn = 0.0F;
+  float yaw = 0.0F;
+  bool has_yaw = false;
+  while (true) {
+    const Result<CameraFrame> frame = robot->camera().acquire(robot->clock().now() + 20 * one_millisecond);
+    if (frame.status() == Status::end_of_data) break;
+    for (auto imu = robot->imu().read(); imu.ok(); imu = robot->imu().read()) {
+      CHECK(imu.value().time <= robot->clock().now());  // nothing is told before it happens
+      if (has_yaw) largest_turn = std::max(largest_turn, std::abs(imu.value().yaw - yaw));
+      yaw = imu.value().yaw;
+      has_yaw = true;
+    }
+    for (auto gait = robot->gait().read(); gait.ok(); gait = robot->gait().read()) CHECK_FALSE(gait.value().lifted);
+    if (!frame.ok()) continue;
+    const MonotonicNs gap = frame.value().time - before;
+    if (robot->truth().kidnapped) {
+      seen = true;
+      CHECK(gap > 600 * one_millisecond);
+    } else if (before != 0) {
+      CHECK(gap < 100 * one_millisecond);
+    }
+    before = frame.value().time;
+    REQUIRE(robot->camera().release(frame.value()) == Status::ok);
+  }
+  CHECK(seen);
+  CHECK(largest_turn < radians(10.0F));  // half a turn in 30 readings, and noise
+}
+
 TEST_CASE("devices: four buffers are lent at the most, and only what is lent can be given back") {
   auto robot = std::make_unique<SimRobot>(tiny_walk(), 2.0);
   REQUIRE(robot->camera().open() == Status::ok);
