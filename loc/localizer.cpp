@@ -67,6 +67,7 @@ void Localizer::reset(const Prior& prior, std::uint64_t seed) {
   yaw_.reset();
   last_ = {};
   frames_ = 0;
+  cloud_ = 0;
   steady_frames_ = 0;
   draw_from_prior(prior);
 }

@@ -55,14 +55,16 @@ float best_exponent(const TypedLandmarks& landmarks, const GroundPoint& observed
 }  // namespace
 
 void add_paper_likelihood(const Field& field, const FeatureManager& features, const FeatureManagerConfig& config,
-                          float variance_floor, bool range_only, ParticleView particles) {
+                          float variance_floor, int cloud, bool range_only, ParticleView particles) {
   if (particles.count == 0) return;
+  ParticleView spread = particles;
+  spread.count = cloud > 0 && cloud < particles.count ? cloud : particles.count;
   const float c_max = FeatureManager::saturation(config);
   for (int t = 0; t < feature_types; ++t) {
     const auto type = static_cast<FeatureType>(t);
     if (features.list(type).empty()) continue;
     TypedLandmarks landmarks;
-    landmarks_of_type(field, type, particles, variance_floor, landmarks);
+    landmarks_of_type(field, type, spread, variance_floor, landmarks);
     if (landmarks.empty()) continue;
     for (const TrackedFeature& f : features.list(type)) {
       const float weight = f.base * f.confidence / c_max;

@@ -12,6 +12,7 @@ namespace {
 constexpr float cluster_radius_m = 0.5F;
 constexpr float cluster_angle = radians(30.0F);
 
+constexpr float random_share = 0.1F;  // 200 particles are too thin for the field: only a steady rain finds what the first cloud missed
 constexpr float roughening = 0.1F;  // between the 0.2 of its authors and what a cloud of 200 needs to close in
 
 float average_weight(ParticleView p) {
@@ -27,8 +28,8 @@ void Localizer::update_paper(const VisionResult& /*vision*/, const YawEvidence& 
   if (frames_ == 0 && yaw.known) {
     for (int i = 0; i < p.count; ++i) p.theta[i] = wrap_angle(yaw.theta + yaw.sigma * rng_.gaussian());
   }
-  for (int i = 0; i < p.count; ++i) p.log_weight[i] = yaw_log_likelihood(yaw, p.theta[i]);
-  add_paper_likelihood(field_, features_, config_.features, config_.landmark_variance_floor, false, p);
+  for (int i = 0; i < p.count; ++i) p.log_weight[i] += yaw_log_likelihood(yaw, p.theta[i]);
+  add_paper_likelihood(field_, features_, config_.features, config_.landmark_variance_floor, cloud_, false, p);
   augmented_.update(average_weight(p), config_.augmented);
 
   find_clusters(p, cluster_radius_m, cluster_angle, clusters_, cluster_index_);
@@ -51,10 +52,12 @@ void Localizer::update_paper(const VisionResult& /*vision*/, const YawEvidence& 
     }
   }
   settle(estimate, 0.05F, radians(3.0F));
-  const float share = augmented_.random_share(config_.augmented);
+  if (effective_count(p) > 0.5F * static_cast<float>(p.count)) return;  // weights add up until they tell enough
+  const float share = math::max(random_share, augmented_.random_share(config_.augmented));
   resample(yaw, share);
   ParticleView kept = p;
-  kept.count = p.count - static_cast<int>(share * static_cast<float>(p.count));
+  cloud_ = p.count - static_cast<int>(share * static_cast<float>(p.count));
+  kept.count = cloud_;
   roughen(kept, roughening, rng_);
 }
 

@@ -42,7 +42,7 @@ TEST_CASE("eq. (5) by hand: minus the distance over twice the variance, weighed 
   f.p.set_pose(1, {-1.2F, 0.75F, 0.0F});
   f.p.set_pose(2, {-1.0F, 1.05F, 0.0F});
   const float floor = 100.0F;  // larger than any variance here, so that it is the variance
-  add_paper_likelihood(f.field, f.manager, f.config, floor, false, f.p);
+  add_paper_likelihood(f.field, f.manager, f.config, floor, 0, false, f.p);
   const TrackedFeature& x = f.manager.list(FeatureType::x)[0];
   const double weight = static_cast<double>(x.base * x.confidence / FeatureManager::saturation(f.config));
   CHECK(f.p.log_weight[0] == doctest::Approx(0.0).epsilon(1e-6));
@@ -55,7 +55,7 @@ TEST_CASE("the variance is that of the particles' distances to the landmark, but
   f.p.set_pose(0, {-1.0F, 0.75F, 0.0F});
   f.p.set_pose(1, {-2.0F, 0.75F, 0.0F});
   f.p.set_pose(2, {-3.0F, 0.75F, 0.0F});  // distances 1, 2, 3 to (0, 0.75): variance 2/3
-  add_paper_likelihood(f.field, f.manager, f.config, 1e-3F, false, f.p);
+  add_paper_likelihood(f.field, f.manager, f.config, 1e-3F, 0, false, f.p);
   const TrackedFeature& x = f.manager.list(FeatureType::x)[0];
   const double weight = static_cast<double>(x.base * x.confidence / FeatureManager::saturation(f.config));
   CHECK(f.p.log_weight[1] == doctest::Approx(-weight * 1.0 / (2.0 * 2.0 / 3.0)).epsilon(1e-3));
@@ -64,9 +64,9 @@ TEST_CASE("the variance is that of the particles' distances to the landmark, but
 TEST_CASE("with ranges alone the heading does not enter") {
   Fixture f;
   for (int i = 0; i < 3; ++i) f.p.set_pose(i, {-1.0F, 0.75F, static_cast<float>(i)});
-  add_paper_likelihood(f.field, f.manager, f.config, 0.05F, true, f.p);
+  add_paper_likelihood(f.field, f.manager, f.config, 0.05F, 0, true, f.p);
   CHECK(f.p.log_weight[1] == doctest::Approx(static_cast<double>(f.p.log_weight[0])).epsilon(1e-5));
   for (int i = 0; i < 3; ++i) f.p.log_weight[i] = 0.0F;
-  add_paper_likelihood(f.field, f.manager, f.config, 0.05F, false, f.p);
+  add_paper_likelihood(f.field, f.manager, f.config, 0.05F, 0, false, f.p);
   CHECK(f.p.log_weight[1] < f.p.log_weight[0] - 0.01F);
 }
