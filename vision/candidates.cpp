@@ -65,7 +65,8 @@ EdgeVerdict judge(const EdgeInput& input, const Edge& e, int& length) {
   if (white == 0) return EdgeVerdict::without_white;
   const std::uint16_t along = e.dx != 0 ? width.across_row : width.across_column;
   const std::uint16_t other = e.dx != 0 ? width.across_column : width.across_row;
-  if (length > limit || wider_than_slope_allows(length, e.rise, e.run, along, other, width.slanted)) return EdgeVerdict::of_wide;
+  if (length > limit || wider_than_slope_allows(length, e.rise, e.run, along, other, width.slanted))
+    return EdgeVerdict::of_wide;
   return EdgeVerdict::line;
 }
 

@@ -43,7 +43,8 @@ void for_each_sample(const ConstYuv420View& image, ConstBitView ground, Visit vi
   }
 }
 
-/// Narrows the hue to the flanks of the highest peak: where the count falls below 1/32 of it, two steps (4 degrees) more.
+/// Narrows the hue to the flanks of the highest peak: where the count falls below 1/32 of it, two steps (4 degrees)
+/// more.
 void narrow_hue(const Histogram& hues, HsvRange& range) {
   const auto smooth = [&hues](std::int32_t h) {
     std::int32_t sum = 0;
@@ -148,8 +149,8 @@ void find_green(const ConstYuv420View& image, ConstBitView ground, const CarpetM
 void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView white) {
   clear(white);
   if (carpet.samples == 0) return;
-  // Little more than half of the carpet's greenness and three quarters of its chroma: in warm light white has a colour of its own,
-  // but not the carpet's; a yellow post or an orange ball has more.
+  // Little more than half of the carpet's greenness and three quarters of its chroma: in warm light white has a colour
+  // of its own, but not the carpet's; a yellow post or an orange ball has more.
   const std::int32_t per_green = 65536 / std::max(carpet.greenness_ratio * 9 / 16, 1);
   const std::int32_t per_chroma = 65536 / std::max(carpet.chroma_ratio * 3 / 4, 1);
   std::array<std::uint8_t, max_hsv_width / 2> low{};

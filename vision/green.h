@@ -14,8 +14,8 @@ namespace touchline {
 /// What the carpet and the white on it look like in this frame. Ratios of chroma to luma do not change with
 /// brightness: a shadow's edge is no edge in them.
 struct CarpetModel {
-  HsvRange green;                    // today's range inside the configured gate
-  std::int32_t axis_cb = 0;          // chroma direction of the carpet, |axis| about 256
+  HsvRange green;            // today's range inside the configured gate
+  std::int32_t axis_cb = 0;  // chroma direction of the carpet, |axis| about 256
   std::int32_t axis_cr = 0;
   std::int32_t greenness_ratio = 0;  // median of (chroma along the axis) / luma, 2^-8
   std::int32_t chroma_ratio = 0;     // median of (|cb| + |cr|) / luma, 2^-8

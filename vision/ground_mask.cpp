@@ -47,7 +47,8 @@ BitWord cell_bits(const CornerRow& above, const CornerRow& below, std::size_t i,
 
 }  // namespace
 
-void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max_range_m, ConstBitView seen, BitView ground) {
+void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max_range_m, ConstBitView seen,
+                      BitView ground) {
   const Mat3 rotation = robot_from_camera(pose);
   const Vec3 up{rotation.m[2][0], rotation.m[2][1], rotation.m[2][2]};
   const auto limit = static_cast<std::int32_t>(pose.height / math::hypot(pose.height, max_range_m) * steepness_scale);

@@ -10,15 +10,18 @@
 namespace touchline {
 
 inline const LineWidth& width_at(LineWidthView widths, int x, int y) {
-  return widths.at(std::clamp(x / width_block_px, 0, widths.width - 1), std::clamp(y / width_block_px, 0, widths.height - 1));
+  return widths.at(std::clamp(x / width_block_px, 0, widths.width - 1),
+                   std::clamp(y / width_block_px, 0, widths.height - 1));
 }
 
-/// Pixels that a line's extent may have: a quarter more for the roughness of the table, two and a half for the blur of both ends.
+/// Pixels that a line's extent may have: a quarter more for the roughness of the table, two and a half for the blur of
+/// both ends.
 constexpr int with_tolerance(int sixteenths) { return (sixteenths * 5 / 4 + 40) / 16; }
 
-/// A line that leaves the scan's normal by the slope s = rise / run (in pixels, 0 <= rise <= run) has along the scan the extent
-/// sqrt(across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2): |J e| of line_width_table.h, with the worse of both
-/// diagonals for the mixed term. `across` is the table's extent along the scan, `other_across` that along the other axis.
+/// A line that leaves the scan's normal by the slope s = rise / run (in pixels, 0 <= rise <= run) has along the scan
+/// the extent sqrt(across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2): |J e| of
+/// line_width_table.h, with the worse of both diagonals for the mixed term. `across` is the table's extent along the
+/// scan, `other_across` that along the other axis.
 constexpr bool wider_than_slope_allows(int length, int rise, int run, std::uint16_t across, std::uint16_t other_across,
                                        std::uint16_t slanted) {
   const std::int64_t a = std::int64_t{across} * across;

@@ -40,7 +40,8 @@ std::uint32_t bits_of_row(ConstBitView mask, int y, int first, int n) {
 Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
   Moments m;
   for (int dy = std::max(-radius, -at.y); dy <= std::min(radius, skeleton.height - 1 - at.y); ++dy) {
-    for (std::uint32_t left = bits_of_row(skeleton, at.y + dy, at.x - radius, 2 * radius + 1); left != 0; left &= left - 1) {
+    for (std::uint32_t left = bits_of_row(skeleton, at.y + dy, at.x - radius, 2 * radius + 1); left != 0;
+         left &= left - 1) {
       const int dx = std::countr_zero(left) - radius;
       ++m.n;
       m.x += dx;
@@ -53,8 +54,8 @@ Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
   return m;
 }
 
-/// Main axis of the skeleton's pixels within `radius`; false where they are few or no line: at ends, forks and bends, where the middle
-/// of the line means nothing. `most_across` bounds the variance across as a share of that along.
+/// Main axis of the skeleton's pixels within `radius`; false where they are few or no line: at ends, forks and bends,
+/// where the middle of the line means nothing. `most_across` bounds the variance across as a share of that along.
 bool main_axis(ConstBitView skeleton, GridPoint at, int radius, float most_across, Vec2& direction) {
   const Moments m = moments_around(skeleton, at, radius);
   if (m.n < radius) return false;
@@ -74,8 +75,8 @@ bool main_axis(ConstBitView skeleton, GridPoint at, int radius, float most_acros
   return true;
 }
 
-/// Unit direction of the skeleton at a pixel, in working pixels. A short stretch says whether there is one; a longer one, where it is
-/// straight, halves the error, which perspective makes several times larger on the ground.
+/// Unit direction of the skeleton at a pixel, in working pixels. A short stretch says whether there is one; a longer
+/// one, where it is straight, halves the error, which perspective makes several times larger on the ground.
 bool direction_at(ConstBitView skeleton, GridPoint at, int radius, Vec2& direction) {
   // Of the variance along, 10 px^2 for a radius of 5: a staircase has 0.1 px^2 across, a line three pixels beside 2.2.
   if (!main_axis(skeleton, at, radius, 0.08F, direction)) return false;
@@ -116,8 +117,10 @@ int mask_reach(ConstBitView mask, const Vec2& p, const Vec2& d) {
   return -1;
 }
 
-/// Where the luma falls through the middle between the line's and the carpet's, along `d` from `p`; false when it does not.
-bool find_edge(ImageView<const std::uint8_t> luma, const Vec2& p, const Vec2& d, int reach, float line_level, float& edge) {
+/// Where the luma falls through the middle between the line's and the carpet's, along `d` from `p`; false when it does
+/// not.
+bool find_edge(ImageView<const std::uint8_t> luma, const Vec2& p, const Vec2& d, int reach, float line_level,
+               float& edge) {
   const float end = static_cast<float>(reach) + side_px;
   const float carpet_a = luma_at(luma, along(p, d, end - 0.5F));
   const float carpet_b = luma_at(luma, along(p, d, end - 1.0F));
@@ -175,12 +178,14 @@ class PointFinder {
     if (reach_a < 0 || reach_b < 0) return false;
     float level = 0.0F;  // of the line: the mean of its inner half, or the brightest of three where it is thin
     if (reach_a + reach_b <= 5) {
-      for (int k = -2; k <= 2; ++k) level = math::max(level, luma_at(input_.luma, along(start, normal, 0.5F * static_cast<float>(k))));
+      for (int k = -2; k <= 2; ++k)
+        level = math::max(level, luma_at(input_.luma, along(start, normal, 0.5F * static_cast<float>(k))));
     } else {
       const float centre = 0.5F * static_cast<float>(reach_a - reach_b);
       const float quarter = 0.25F * static_cast<float>(reach_a + reach_b);
       float sum = 0.0F;
-      for (int k = -2; k <= 2; ++k) sum += luma_at(input_.luma, along(start, normal, centre + 0.5F * quarter * static_cast<float>(k)));
+      for (int k = -2; k <= 2; ++k)
+        sum += luma_at(input_.luma, along(start, normal, centre + 0.5F * quarter * static_cast<float>(k)));
       level = sum / 5.0F;
     }
     float edge_a = 0.0F;
@@ -225,7 +230,8 @@ class PointFinder {
     }
     point.ground = {0.5F * (edge_a.x + edge_b.x), 0.5F * (edge_a.y + edge_b.y)};
     const CameraPose& pose = projection.pose();
-    if (math::hypot(point.ground.x - pose.x, point.ground.y - pose.y) > input_.max_range_m) return fail(counts.no_ground);
+    if (math::hypot(point.ground.x - pose.x, point.ground.y - pose.y) > input_.max_range_m)
+      return fail(counts.no_ground);
     if (!projection.pixel(point.ground, point.pixel)) return fail(counts.no_ground);
     point.ray = normalized({point.ground.x - pose.x, point.ground.y - pose.y, -pose.height});
     float direction = math::atan2(run_y, run_x);
@@ -251,7 +257,8 @@ class PointFinder {
 
 }  // namespace
 
-LinePointCounts find_line_points(const LinePointInput& input, BitView scratch, StaticVector<LinePoint, max_line_points>& points) {
+LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,
+                                 StaticVector<LinePoint, max_line_points>& points) {
   LinePointCounts counts;
   points.clear();
   clear(scratch);

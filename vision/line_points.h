@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From skeleton pixels to points on the middle of a line, better than a working pixel, with their place on the ground. Both edges
-// are found on the luma's profile across the line, and their distance on the ground is compared with the line's width: the
-// strongest test there is of what is a line.
+// From skeleton pixels to points on the middle of a line, better than a working pixel, with their place on the ground.
+// Both edges are found on the luma's profile across the line, and their distance on the ground is compared with the
+// line's width: the strongest test there is of what is a line.
 #pragma once
 
 #include "vision/features.h"
@@ -29,10 +29,11 @@ struct LinePointCounts {
   int no_edge = 0;       // the profile does not fall to both sides, or the picture ends first
   int no_ground = 0;
   int wrong_width = 0;
-  int dropped = 0;       // no room
+  int dropped = 0;  // no room
 };
 
 /// Fills `points`, evenly spread over the skeleton's pixels. `scratch` has the skeleton's size.
-LinePointCounts find_line_points(const LinePointInput& input, BitView scratch, StaticVector<LinePoint, max_line_points>& points);
+LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,
+                                 StaticVector<LinePoint, max_line_points>& points);
 
 }  // namespace touchline

@@ -49,7 +49,8 @@ LineWidth width_of_block(const Vec3 corner[4], const Mat3& rotation, float heigh
 
 }  // namespace
 
-void make_line_width_table(const RayGridView& grid, const CameraPose& pose, float line_width_m, ImageView<LineWidth> table) {
+void make_line_width_table(const RayGridView& grid, const CameraPose& pose, float line_width_m,
+                           ImageView<LineWidth> table) {
   assert(table.width + 1 == grid.columns && table.height + 1 == grid.rows);
   const Mat3 rotation = robot_from_camera(pose);
   for (int row = 0; row < table.height; ++row) {

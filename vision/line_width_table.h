@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How wide a field line looks at a pixel of the working image: the one thing that vision's integer stages need of
-// geometry. Made anew for each frame from the ray grid and the attitude, on a coarse grid, quantised to 1/16 working pixel.
+// geometry. Made anew for each frame from the ray grid and the attitude, on a coarse grid, quantised to 1/16 working
+// pixel.
 //
 // Lens and perspective stretch the ground differently in each direction, so a line's width depends on how it lies. With
-// J = d ground / d pixel, a line along the image direction e has the extent  w |J e| / (|det J| |e_y|)  along the row and
-// w |J e| / (|det J| |e_x|)  along the column.
+// J = d ground / d pixel, a line along the image direction e has the extent  w |J e| / (|det J| |e_y|)  along the row
+// and w |J e| / (|det J| |e_x|)  along the column.
 #pragma once
 
 #include <array>
@@ -24,12 +25,14 @@ struct LineWidth {
   std::uint16_t across_column = 0;  // extent along the column of a line that runs along the row, 1/16 working pixel
   /// Extent along the row, and along the column, of a line at 45 degrees in the working image: the worse of both
   /// diagonals. A line steeper than 45 degrees is at most that wide along its row, a flatter one along its column.
-  std::uint16_t slanted = 0;        // 1/16 working pixel
+  std::uint16_t slanted = 0;  // 1/16 working pixel
 };
 
 using LineWidthView = ImageView<const LineWidth>;  // one entry per block of width_block_px squared
 
-/// Fills `table` ((width / 8) x (height / 8) entries, rounded up) for a line of `line_width_m`, at the centre of each block.
-void make_line_width_table(const RayGridView& grid, const CameraPose& pose, float line_width_m, ImageView<LineWidth> table);
+/// Fills `table` ((width / 8) x (height / 8) entries, rounded up) for a line of `line_width_m`, at the centre of each
+/// block.
+void make_line_width_table(const RayGridView& grid, const CameraPose& pose, float line_width_m,
+                           ImageView<LineWidth> table);
 
 }  // namespace touchline

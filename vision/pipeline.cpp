@@ -12,6 +12,7 @@
 #include "vision/image/grow.h"
 #include "vision/image/hull.h"
 #include "vision/image/morphology.h"
+#include "vision/line_mask.h"
 #include "vision/line_points.h"
 #include "vision/node_graph.h"
 #include "vision/short_pieces.h"
@@ -39,8 +40,8 @@ class StageScope {
 
 bool is_finite(float x) { return x - x == 0.0F; }
 bool is_valid(const CameraPose& pose) {
-  return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.yaw) && is_finite(pose.pitch) && is_finite(pose.roll) &&
-         is_finite(pose.height) && pose.height > 0.0F;
+  return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.yaw) && is_finite(pose.pitch) &&
+         is_finite(pose.roll) && is_finite(pose.height) && pose.height > 0.0F;
 }
 bool is_valid(const Pose2& pose) { return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.theta); }
 
@@ -148,8 +149,8 @@ void Pipeline::remember(const FrameInput& input) {
   held_[0] = {input.camera, input.odometry};
 }
 
-/// Whether the camera has moved by less than a working pixel since the frame of that age: the turn as an angle, the step as it is
-/// seen at the nearest ground, one camera height away.
+/// Whether the camera has moved by less than a working pixel since the frame of that age: the turn as an angle, the
+/// step as it is seen at the nearest ground, one camera height away.
 bool Pipeline::still_since(int age) const {
   Pose2 step;
   for (int i = age - 1; i >= 0; --i) step = compose(step, held_[static_cast<std::size_t>(i)].odometry);
@@ -157,9 +158,11 @@ bool Pipeline::still_since(int age) const {
   const CameraPose& then = held_[static_cast<std::size_t>(age)].camera;
   const float turn = math::abs(wrap_angle(now.pitch - then.pitch)) + math::abs(wrap_angle(now.roll - then.roll)) +
                      math::abs(wrap_angle(now.yaw - then.yaw + step.theta));
-  const float travel = math::hypot(now.x - then.x + step.x, now.y - then.y + step.y) + math::abs(now.height - then.height);
-  const float pixels_a_frame_pixel = math::max(static_cast<float>(views_.width) / static_cast<float>(config_.frame_width),
-                                               static_cast<float>(views_.height) / static_cast<float>(config_.frame_height));
+  const float travel =
+      math::hypot(now.x - then.x + step.x, now.y - then.y + step.y) + math::abs(now.height - then.height);
+  const float pixels_a_frame_pixel =
+      math::max(static_cast<float>(views_.width) / static_cast<float>(config_.frame_width),
+                static_cast<float>(views_.height) / static_cast<float>(config_.frame_height));
   return (turn + travel / now.height) * lens_.parameters().focal_px * pixels_a_frame_pixel < 1.0F;
 }
 
@@ -222,7 +225,8 @@ void Pipeline::find_candidates(VisionResult& result) {
   const GrowResult grown =
       find_edges(result.mean.y, roi, edge_thresholds(carpet_), memory_.canny, views_.mask(MaskId::scratch), edges);
   if (!grown.finished) ++result.counts.dropped_edge_seeds;
-  const EdgeInput input{result.mean.y, edges, views_.mask(MaskId::green), views_.mask(MaskId::white), result.line_widths};
+  const EdgeInput input{result.mean.y, edges, views_.mask(MaskId::green), views_.mask(MaskId::white),
+                        result.line_widths};
   add_line_edges(input, candidates, result.counts.rejected_candidates);
   and_with(candidates, roi);
   result.edges = edges;
@@ -286,16 +290,15 @@ void Pipeline::find_features(VisionResult& result) {
   features.has_circle =
       find_circle(work.lines, rays, {config_.circle_radius_m, config_.line_width_m}, work.circle, features.circle);
   const SeenCircle circle{features.circle, work.circle.seen, config_.circle_radius_m};
-  const int dropped =
-      find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, field,
-                     {config_.line_width_m, config_.max_range_m}, work.junctions, features);
+  const int dropped = find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, field,
+                                     {config_.line_width_m, config_.max_range_m}, work.junctions, features);
   result.counts.dropped_junctions =
       dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
 }
 
 void Pipeline::make_line_points(VisionResult& result) {
-  const LinePointInput input{result.mean.y,        result.skeleton,      result.line_mask,     result.projection,
-                             config_.frame_width,  config_.frame_height, config_.line_width_m, config_.max_range_m};
+  const LinePointInput input{result.mean.y,       result.skeleton,      result.line_mask,     result.projection,
+                             config_.frame_width, config_.frame_height, config_.line_width_m, config_.max_range_m};
   const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
   result.counts.dropped_line_points = counts.dropped;
 }
@@ -307,8 +310,6 @@ int Pipeline::scaled(int px) const {
 }
 
 /// A length of the configuration at the working width.
-int Pipeline::scaled_length(int px) const {
-  return (px * views_.width + reference_width / 2) / reference_width;
-}
+int Pipeline::scaled_length(int px) const { return (px * views_.width + reference_width / 2) / reference_width; }
 
 }  // namespace touchline

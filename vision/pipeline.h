@@ -27,7 +27,8 @@ struct FrameInput {
 class Pipeline {
  public:
   /// `memory` outlives the pipeline; it is that of a PipelineStorage<W, H, Depth>.
-  explicit Pipeline(const PipelineMemory& memory) : memory_(memory), subsampler_(memory.subsample), index_(memory.graph.index) {}
+  explicit Pipeline(const PipelineMemory& memory)
+      : memory_(memory), subsampler_(memory.subsample), index_(memory.graph.index) {}
 
   /// Checks config against the storage; on failure the old configuration stays and `what` names the key, when not null.
   Status configure(const VisionConfig& config, const Lens& lens, const char** what = nullptr);

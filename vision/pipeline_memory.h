@@ -9,9 +9,9 @@
 #include "vision/features.h"
 #include "vision/graph.h"
 #include "vision/graph_storage.h"
+#include "vision/image/bit_image.h"
 #include "vision/image/blobs.h"
 #include "vision/image/canny.h"
-#include "vision/image/bit_image.h"
 #include "vision/image/frame_fifo.h"
 #include "vision/image/subsample.h"
 #include "vision/image/thinning.h"
@@ -23,17 +23,17 @@ namespace touchline {
 
 /// The masks of the chain, each of one bit a working pixel.
 enum class MaskId : std::uint8_t {
-  seen,        // inside the image circle and not the robot itself; made once
-  ground,      // sees the carpet
-  green,       // the carpet's colour, before erosion
-  clean_green, // after erosion and dilation
-  white,       // no colour
-  field,       // the largest blob
-  roi,         // its hull
-  candidates,  // white search united with Canny
+  seen,         // inside the image circle and not the robot itself; made once
+  ground,       // sees the carpet
+  green,        // the carpet's colour, before erosion
+  clean_green,  // after erosion and dilation
+  white,        // no colour
+  field,        // the largest blob
+  roi,          // its hull
+  candidates,   // white search united with Canny
   line_mask,
   skeleton,
-  edges,       // Canny's, before the rule of white and green
+  edges,  // Canny's, before the rule of white and green
   scratch,
   count,
 };
@@ -49,7 +49,7 @@ struct PipelineMemory {
   int max_height = 0;
   std::size_t depth = 0;  // slots that are there
   std::array<Yuv420Samples, max_fifo_depth> slots;
-  Yuv420Samples mean;     // empty when depth is 1
+  Yuv420Samples mean;  // empty when depth is 1
   SubsampleMemory subsample;
   std::array<std::span<BitWord>, mask_count> masks;
   std::span<Vec3> rays;

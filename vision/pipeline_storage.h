@@ -50,7 +50,8 @@ class PipelineStorage {
   SubsampleStorage<FrameWidth, W> subsample_{};
   std::array<BitImage<W, H>, mask_count> masks_{};
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
-  std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)> line_widths_{};
+  std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>
+      line_widths_{};
   std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(H))> thinning_{};
   // Pixels that wait while a piece of skeleton is followed, depth first: three a fork at the most.
   std::array<GridPoint, 512> stack_{};

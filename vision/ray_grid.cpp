@@ -10,7 +10,8 @@
 namespace touchline {
 namespace {
 
-/// The same lens with a wider limit, for corners of blocks that the image circle cuts; the lens itself where its formula ends.
+/// The same lens with a wider limit, for corners of blocks that the image circle cuts; the lens itself where its
+/// formula ends.
 Lens beyond_the_circle(const Lens& lens) {
   LensParameters parameters = lens.parameters();
   for (const float more : {0.15F, 0.05F}) {
@@ -34,7 +35,8 @@ void clear_polygon(const MaskPolygon& polygon, float scale_u, float scale_v, Bit
 
 }  // namespace
 
-void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work_width, int work_height, RayGridView grid) {
+void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work_width, int work_height,
+                   RayGridView grid) {
   assert(grid.columns == ray_columns(work_width) && grid.rows == ray_rows(work_height));
   const Lens wider = beyond_the_circle(lens);
   const float scale_u = static_cast<float>(frame_width) / static_cast<float>(work_width);
@@ -42,13 +44,15 @@ void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       Vec3 ray;
-      const PixelPoint pixel{static_cast<float>(column * ray_cell_px) * scale_u, static_cast<float>(row * ray_cell_px) * scale_v};
+      const PixelPoint pixel{static_cast<float>(column * ray_cell_px) * scale_u,
+                             static_cast<float>(row * ray_cell_px) * scale_v};
       grid.at(column, row) = wider.ray(pixel, ray) ? ray : Vec3{};
     }
   }
 }
 
-void make_seen_mask(const Lens& lens, int frame_width, int frame_height, std::span<const MaskPolygon> body, BitView seen) {
+void make_seen_mask(const Lens& lens, int frame_width, int frame_height, std::span<const MaskPolygon> body,
+                    BitView seen) {
   const float scale_u = static_cast<float>(frame_width) / static_cast<float>(seen.width);
   const float scale_v = static_cast<float>(frame_height) / static_cast<float>(seen.height);
   clear(seen);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lens on a coarse grid: one ray for every corner of the 8x8 blocks of the working image. Made once for a lens; a frame's
-// attitude only turns it. Between the corners rays are smooth enough to be interpolated (off by less than 0.1 working pixel).
+// The lens on a coarse grid: one ray for every corner of the 8x8 blocks of the working image. Made once for a lens; a
+// frame's attitude only turns it. Between the corners rays are smooth enough to be interpolated (off by less than 0.1
+// working pixel).
 #pragma once
 
 #include <span>
@@ -29,9 +30,12 @@ struct RayGridView {
 
 /// Fills the grid. Corners a little outside the image circle get a ray too where the lens's formula allows it, so that
 /// blocks on the circle can be interpolated.
-void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work_width, int work_height, RayGridView grid);
+void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work_width, int work_height,
+                   RayGridView grid);
 
-/// Sets the working pixels whose centre lies inside the lens's image circle and outside the polygons of `body` (camera pixels).
-void make_seen_mask(const Lens& lens, int frame_width, int frame_height, std::span<const MaskPolygon> body, BitView seen);
+/// Sets the working pixels whose centre lies inside the lens's image circle and outside the polygons of `body` (camera
+/// pixels).
+void make_seen_mask(const Lens& lens, int frame_width, int frame_height, std::span<const MaskPolygon> body,
+                    BitView seen);
 
 }  // namespace touchline

@@ -56,12 +56,14 @@ bool is_short(const Piece& piece, LineWidthView widths, int least_px) {
   const int block_x = std::min((piece.left + piece.right) / 2 / width_block_px, widths.width - 1);
   const int block_y = std::min((piece.top + piece.bottom) / 2 / width_block_px, widths.height - 1);
   const LineWidth& width = widths.at(block_x, block_y);
-  return wide * 16 < least_length_in_widths * width.across_row && high * 16 < least_length_in_widths * width.across_column;
+  return wide * 16 < least_length_in_widths * width.across_row &&
+         high * 16 < least_length_in_widths * width.across_column;
 }
 
 }  // namespace
 
-PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, BitView scratch, std::span<GridPoint> stack) {
+PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, BitView scratch,
+                                std::span<GridPoint> stack) {
   PieceCounts counts;
   if (stack.empty()) return counts;
   copy(skeleton, scratch);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of skeleton too short to be a line: specks of the carpet, the penalty mark, the ball, a robot's toe. How short follows from
-// the width of a line there.
+// Pieces of skeleton too short to be a line: specks of the carpet, the penalty mark, the ball, a robot's toe. How short
+// follows from the width of a line there.
 #pragma once
 
 #include <span>
@@ -21,6 +21,7 @@ struct PieceCounts {
 
 /// Removes from `skeleton` each 8-connected piece that extends over less than three line widths or less than `least_px`
 /// pixels. `scratch` has the skeleton's size; `stack` bounds the pixels that wait while a piece is followed.
-PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, BitView scratch, std::span<GridPoint> stack);
+PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, BitView scratch,
+                                std::span<GridPoint> stack);
 
 }  // namespace touchline

@@ -44,9 +44,9 @@ struct VisionResult {
   int frame_height = 0;
   int work_width = 0;
   int work_height = 0;
-  ConstYuv420View mean;  // working size
-  ConstBitView green;    // after erosion and dilation
-  ConstBitView field;    // the largest blob
+  ConstYuv420View mean;                // working size
+  ConstBitView green;                  // after erosion and dilation
+  ConstBitView field;                  // the largest blob
   std::span<const GridPoint> contour;  // of the largest blob, corner by corner
   std::span<const GridPoint> hull;     // of the contour
   ConstBitView roi;

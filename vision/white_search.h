@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// White search (paper section IV-C; reading: white by HSV between green on both sides, across the line's width). Two searches,
-// for what a line is depends on how much of it the picture can hold:
-//   spans: near lines, wide enough to have their own colour: white pixels between two green ones, as far apart as the field says;
-//   ridges: far, thin or worn lines, whose colour melts with the carpet's: a pixel brighter and less green than both sides.
+// White search (paper section IV-C; reading: white by HSV between green on both sides, across the line's width). Two
+// searches, for what a line is depends on how much of it the picture can hold:
+//   spans: near lines, wide enough to have their own colour: white pixels between two green ones, as far apart as the
+//   field says; ridges: far, thin or worn lines, whose colour melts with the carpet's: a pixel brighter and less green
+//   than both sides.
 // Both know no absolute brightness. Widths come from the table alone.
 #pragma once
 
@@ -17,31 +18,23 @@ namespace touchline {
 /// Gaps in the green that were looked at, and why they are no line.
 struct SpanCounts {
   int found = 0;
-  int too_wide = 0;   // wider than a line can look there
-  int too_thin = 0;   // narrower than half a line
-  int not_white = 0;  // less than half of the gap's pixels are white
-  int not_bright = 0; // not brighter than the green beside it: a shadow, a dark foot
+  int too_wide = 0;    // wider than a line can look there
+  int too_thin = 0;    // narrower than half a line
+  int not_white = 0;   // less than half of the gap's pixels are white
+  int not_bright = 0;  // not brighter than the green beside it: a shadow, a dark foot
 };
 
-/// Adds to `lines` every gap between two green pixels of a row or a column that is as wide as a line can be there, mostly
-/// white, and brighter than both ends.
+/// Adds to `lines` every gap between two green pixels of a row or a column that is as wide as a line can be there,
+/// mostly white, and brighter than both ends.
 SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, ConstBitView white, LineWidthView widths,
                             const CarpetModel& carpet, BitView lines);
 
-/// Adds to `lines` the pixels of `roi` that stand out from the green on both sides, along the row or along the column, by three times
-/// the noise; and those that stand out by half of that and hang together with such a one, or with a line that is there already.
-/// Only where a line is at most `max_ridge_px` wide; beyond, spans find it. `scratch` has the size of `lines` and holds all weak
-/// ridges afterwards. The result tells whether the growing ended within its bound.
+/// Adds to `lines` the pixels of `roi` that stand out from the green on both sides, along the row or along the column,
+/// by three times the noise; and those that stand out by half of that and hang together with such a one, or with a line
+/// that is there already. Only where a line is at most `max_ridge_px` wide; beyond, spans find it. `scratch` has the
+/// size of `lines` and holds all weak ridges afterwards. The result tells whether the growing ended within its bound.
 inline constexpr int max_ridge_px = 8;
 GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
                              const CarpetModel& carpet, BitView lines, BitView scratch);
-
-/// Takes pixels off the border of `lines` whose luma is nearer to the carpet's than to the line's (the darkest and the brightest
-/// within two pixels): what blur and the coarser chroma let in. Two passes. `scratch` has the same size.
-void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch);
-
-/// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line, and the
-/// rest of a line that the picture's border cuts. `scratch` has the same size.
-void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch);
 
 }  // namespace touchline

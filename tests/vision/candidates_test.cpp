@@ -27,10 +27,12 @@ Outcome edges_of(const Drawing& d) {
   fill(all.view());
   o.lines = Bits(d.w, d.h);
   const auto canny = std::make_unique<CannyStorage<320>>();
-  const GrowResult grown = find_edges(d.image().y, all.view(), edge_thresholds(d.carpet), canny->memory(), weak.view(), edges.view());
+  const GrowResult grown =
+      find_edges(d.image().y, all.view(), edge_thresholds(d.carpet), canny->memory(), weak.view(), edges.view());
   CHECK(grown.finished);
   o.edges = count(edges.view());
-  o.taken = add_line_edges({d.image().y, edges.view(), d.green.view(), d.white.view(), d.table()}, o.lines.view(), o.rejected);
+  o.taken = add_line_edges({d.image().y, edges.view(), d.green.view(), d.white.view(), d.table()}, o.lines.view(),
+                           o.rejected);
   return o;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Carpets drawn as text: 'g' carpet, 'W' white, 's' carpet in the shadow, 'w' white in the shadow, 'y' yellow, 'k' black, 'f' floor,
+// Carpets drawn as text: 'g' carpet, 'W' white, 's' carpet in the shadow, 'w' white in the shadow, 'y' yellow, 'k'
+// black, 'f' floor,
 // '+' a worn line: carpet with a little white. Test support.
 #pragma once
 
@@ -41,7 +42,12 @@ struct Drawing {
 
   /// Each character is 2x2 pixels, so that it has a chroma sample of its own.
   Drawing(const std::vector<std::string>& rows, LineWidth width)
-      : w(2 * static_cast<int>(rows[0].size())), h(2 * static_cast<int>(rows.size())), green(w, h), white(w, h), lines(w, h), scratch(w, h) {
+      : w(2 * static_cast<int>(rows[0].size())),
+        h(2 * static_cast<int>(rows.size())),
+        green(w, h),
+        white(w, h),
+        lines(w, h),
+        scratch(w, h) {
     y.resize(static_cast<std::size_t>(w * h));
     cb.resize(static_cast<std::size_t>(w * h / 4));
     cr = cb;

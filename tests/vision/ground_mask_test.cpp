@@ -48,7 +48,8 @@ TEST_CASE("the mask agrees with the projection but for pixels on its border") {
         if (here == ground.view().get(x, y)) continue;
         bool border = false;
         for (const int d : {-1, 1}) {
-          border = border || sees_ground(projection, x + d, y, 5.0F) != here || sees_ground(projection, x, y + d, 5.0F) != here;
+          border = border || sees_ground(projection, x + d, y, 5.0F) != here ||
+                   sees_ground(projection, x, y + d, 5.0F) != here;
         }
         if (!border) ++wrong;
       }

@@ -41,9 +41,10 @@ std::unique_ptr<Table> make_table(const GroundProjection& projection, float line
 
 PixelPoint camera_pixel(float u, float v) { return {u * 2.35F, v * 2.0F}; }
 
-/// Extent along (du, dv), in working pixels, of a line that runs along (eu, ev) in the picture: by halving the stretch until its
-/// ends are the line's width apart, measured across the line on the ground.
-float measured_extent(const GroundProjection& projection, float u, float v, float du, float dv, float eu, float ev, float width) {
+/// Extent along (du, dv), in working pixels, of a line that runs along (eu, ev) in the picture: by halving the stretch
+/// until its ends are the line's width apart, measured across the line on the ground.
+float measured_extent(const GroundProjection& projection, float u, float v, float du, float dv, float eu, float ev,
+                      float width) {
   GroundPoint from, to;
   if (!projection.ground(camera_pixel(u - eu * 0.1F, v - ev * 0.1F), from)) return 0.0F;
   if (!projection.ground(camera_pixel(u + eu * 0.1F, v + ev * 0.1F), to)) return 0.0F;
@@ -110,7 +111,8 @@ TEST_CASE("no ground, no width: above the horizon and outside the lens") {
       if (!sees_ground && math::hypot(centre.u - 376.0F, centre.v - 240.0F) > 250.0F) {
         CHECK(width.across_row == 0);
         CHECK(width.across_column == 0);
-      } else if (sees_ground && math::hypot(g.x, g.y) < 3.0F && math::hypot(centre.u - 376.0F, centre.v - 240.0F) < 155.0F) {
+      } else if (sees_ground && math::hypot(g.x, g.y) < 3.0F &&
+                 math::hypot(centre.u - 376.0F, centre.v - 240.0F) < 155.0F) {
         CHECK(width.across_row > 0);
         CHECK(width.across_column > 0);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small pictures of a carpet with lines, painted through a lens by asking each camera pixel which ground it sees. Seeded noise.
-// Test support: heap is fine here.
+// Small pictures of a carpet with lines, painted through a lens by asking each camera pixel which ground it sees.
+// Seeded noise. Test support: heap is fine here.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct Scene {
   Rgb light{1, 1, 1};            // multiplies everything
   float shadow_from_y = 100.0F;  // ground left of this lies in a shadow
   float shadow = 0.45F;
-  float noise = 0.0F;            // standard deviation of each channel, grey levels
+  float noise = 0.0F;  // standard deviation of each channel, grey levels
   unsigned seed = 1;
 };
 

@@ -40,7 +40,9 @@ Scene cross() {
   return scene;
 }
 
-Picture painted(const Scene& scene, const CameraPose& pose = usual_pose()) { return paint(scene, GroundProjection(fish_eye(), pose)); }
+Picture painted(const Scene& scene, const CameraPose& pose = usual_pose()) {
+  return paint(scene, GroundProjection(fish_eye(), pose));
+}
 
 /// Distance to the nearer of the two lines of cross().
 float off_line(const LinePoint& p) { return math::min(math::abs(p.ground.x - 1.2F), math::abs(p.ground.y - 0.4F)); }
@@ -77,7 +79,8 @@ TEST_CASE("a dim picture and a shadow give the same lines") {
     Chain chain;
     REQUIRE(chain.run(painted(scene)) == Status::ok);
     CHECK(chain.result.features->line_points.size() > 100);
-    for (const LinePoint& p : chain.result.features->line_points.span()) CHECK(off_line(p) < math::max(p.sigma, 0.015F));
+    for (const LinePoint& p : chain.result.features->line_points.span())
+      CHECK(off_line(p) < math::max(p.sigma, 0.015F));
   }
 }
 

@@ -21,8 +21,10 @@ struct Outcome {
 Outcome run(const std::vector<std::string_view>& rows, LineWidth width, std::size_t room = 64) {
   Outcome o{bits(rows), {}};
   Bits scratch(o.skeleton.width, o.skeleton.height);
-  const std::vector<LineWidth> widths(static_cast<std::size_t>((o.skeleton.width / 8 + 1) * (o.skeleton.height / 8 + 1)), width);
-  const LineWidthView table{widths.data(), o.skeleton.width / 8 + 1, o.skeleton.height / 8 + 1, o.skeleton.width / 8 + 1};
+  const std::vector<LineWidth> widths(
+      static_cast<std::size_t>((o.skeleton.width / 8 + 1) * (o.skeleton.height / 8 + 1)), width);
+  const LineWidthView table{widths.data(), o.skeleton.width / 8 + 1, o.skeleton.height / 8 + 1,
+                            o.skeleton.width / 8 + 1};
   std::vector<GridPoint> stack(room);
   o.counts = remove_short_pieces(o.skeleton.view(), table, 5, scratch.view(), stack);
   return o;
@@ -32,12 +34,8 @@ Outcome run(const std::vector<std::string_view>& rows, LineWidth width, std::siz
 
 TEST_CASE("pieces shorter than three line widths go, others stay as they are") {
   const std::vector<std::string_view> drawn = {
-      "###.................",
-      "....................",
-      "......############..",
-      ".#............#.....",
-      "..#...........#.....",
-      "...#................",
+      "###.................", "....................", "......############..",
+      ".#............#.....", "..#...........#.....", "...#................",
   };
   const Outcome o = run(drawn, {48, 48, 68});  // three pixels wide: nine is the least
   CHECK(ascii(o.skeleton) == ascii(bits({

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/vision/drawn_carpet.h"
+#include "vision/line_mask.h"
 
 using namespace touchline;
 using namespace touchline::test;
