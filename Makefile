@@ -8,7 +8,7 @@ NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test check golden accept bench format install clean
+.PHONY: help build demo test check golden accept bench profile format install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -43,8 +43,19 @@ accept: build  ## make accept DATA=folder: the acceptance figures beside their t
 	@[ -n "$(DATA)" ] || { echo "Which data? Say: make accept DATA=folder" >&2; exit 2; }
 	@$(TOUCHLINE) accept "$(DATA)" --output $(BUILD)/accept.json --figures $(FIGURES) $(if $(REWRITE),--rewrite)
 
-bench: build  ## times per stage on the fixtures, in microseconds
-	@$(TOUCHLINE) evaluate $(sort $(dir $(wildcard fixtures/*/frames.jsonl))) | grep -E '^[a-z].*frames,|median us'
+bench:  ## make bench [DATA=folder]: times per stage beside OpenCV's; a table, and build/bench.json
+	@bash $(NEED) build test backends bench
+	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
+	@cmake -S . -B $(BUILD) >/dev/null
+	@cmake --build $(BUILD) --parallel $(JOBS) --target touchline_bench
+	@$(BUILD)/tests/bench/touchline_bench --json $(BUILD)/bench.json --first-pose $(BUILD)/tests/bench/first_pose \
+	  $(if $(DATA),--data "$(DATA)") $(BENCH_ARGUMENTS)
+
+profile:  ## instructions per stage and frame, by callgrind: a figure that repeats on noisy machines
+	@bash $(NEED) build test backends profile
+	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
+	@cmake --build $(BUILD) --parallel $(JOBS) --target profile_chain
+	@bash tests/bench/profile.sh $(BUILD)/tests/bench/profile_chain $(BUILD)
 
 format:  ## clang-format over all sources
 	@bash $(NEED) check

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that a make target misses: as root, or by sudo where it asks no password. Else it prints
 # the exact command and fails. Says nothing and touches nothing when all is there.
-#   need.sh GROUP...    groups: build test check backends bench
+#   need.sh GROUP...    groups: build test check backends bench profile
 set -euo pipefail
 
 packages=()
@@ -14,7 +14,8 @@ for group in "$@"; do
     check) packages+=(clang clang-format clang-tidy ninja-build ccache) ;;
     backends) packages+=(libv4l-dev libgpiod-dev libhidapi-dev) ;;
     bench) packages+=(libbenchmark-dev libopencv-dev libopencv-contrib-dev) ;;
-    *) echo "need.sh: unknown group '$group' (build test check backends bench)" >&2; exit 2 ;;
+    profile) packages+=(valgrind) ;;
+    *) echo "need.sh: unknown group '$group' (build test check backends bench profile)" >&2; exit 2 ;;
   esac
 done
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The benchmark: paired with OpenCV, then by size. Fails on no figure.
+//   touchline_bench [--data FOLDER] [--json FILE] [--rounds N] [--first-pose PROGRAM] [Google Benchmark's options]
+#include <benchmark/benchmark.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/bench/paired.h"
+#include "tests/bench/scaling.h"
+
+extern char** environ;
+
+namespace {
+
+using namespace touchline::bench;
+
+struct Options {
+  std::string data, json = "bench.json", first_pose;
+  int rounds = 7;
+};
+
+/// Takes ours out of the arguments and leaves Google Benchmark's.
+Options take_options(int& argc, char** argv) {
+  Options options;
+  int kept = 1;
+  for (int i = 1; i < argc; ++i) {
+    const std::string key = argv[i];
+    const bool value = i + 1 < argc;
+    if (key == "--data" && value) {
+      options.data = argv[++i];
+    } else if (key == "--json" && value) {
+      options.json = argv[++i];
+    } else if (key == "--rounds" && value) {
+      options.rounds = std::max(std::atoi(argv[++i]), 1);
+    } else if (key == "--first-pose" && value) {
+      options.first_pose = argv[++i];
+    } else {
+      argv[kept++] = argv[i];
+    }
+  }
+  argc = kept;
+  return options;
+}
+
+/// Wall time of the whole process, start to end; 0 when it could not be run.
+double run_first_pose(const std::string& program, const std::string& raw) {
+  std::vector<double> samples;
+  for (int i = 0; i < 21; ++i) {
+    char* arguments[] = {const_cast<char*>(program.c_str()), const_cast<char*>(raw.c_str()), nullptr};
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", 1, 0);
+    const auto begin = std::chrono::steady_clock::now();
+    pid_t child = 0;
+    int status = 1;
+    const bool ran = posix_spawn(&child, program.c_str(), &actions, nullptr, arguments, environ) == 0 &&
+                     waitpid(child, &status, 0) == child;
+    const std::chrono::duration<double, std::micro> us = std::chrono::steady_clock::now() - begin;
+    posix_spawn_file_actions_destroy(&actions);
+    if (!ran || status != 0) return 0.0;
+    samples.push_back(us.count());
+  }
+  return spread_of(samples).median;
+}
+
+void print_run(const Options& options, const FramePool& pool, const PairedResult& r) {
+  std::printf(
+      "Frames: %s, %zu views of %d shots, %dx%d RGB24, %.0f MB in rotation; one thread each;\nboth sides in turn; "
+      "processor time of the thread.\n",
+      pool.origin.c_str(), pool.views.size(), shots_per_view, pool.width, pool.height,
+      static_cast<double>(pool.views.size()) * shots_per_view * pool.width * pool.height * 3 / 1048576.0);
+  print_paired(r.rows);
+  print_agreement(r.agreement);
+  const double copy = r.memcpy_us.median;
+  std::vector<FigureRow> figures = {
+      {"memcpy of one frame", copy, 1.0, "the yardstick, from memory that no cache holds"},
+      {"frame to pose", r.frame_to_pose_us.median, r.frame_to_pose_us.median / copy,
+       "200 particles, full model, tracking"},
+      {"of it line points", r.line_points_us.median, r.line_points_us.median / copy, ""},
+      {"of it localizer", r.localize_us.median, r.localize_us.median / copy, ""},
+      {"frame to first pose", r.frame_to_first_pose_us.median, r.frame_to_first_pose_us.median / copy,
+       "from nothing: the search included"},
+  };
+  if (!options.first_pose.empty() && pool.width == 752 && pool.height == 480) {
+    const std::string raw = std::filesystem::temp_directory_path() / "touchline_first_pose.raw";
+    const auto& shot = pool.views[0].shots[0];
+    std::ofstream(raw, std::ios::binary)
+        .write(reinterpret_cast<const char*>(shot.data()), static_cast<std::streamsize>(shot.size()));
+    const double us = run_first_pose(options.first_pose, raw);
+    char note[80];
+    std::snprintf(note, sizeof note, "%.1f times a warm frame to pose", us / r.frame_to_pose_us.median);
+    figures.push_back({"process start to first pose", us, us / copy, us > 0.0 ? note : "could not be run"});
+    std::filesystem::remove(raw);
+  }
+  print_figures("whole", figures);
+  int frames_with_drops = 0;
+  for (const int drops : r.dropped) frames_with_drops += drops > 0 ? 1 : 0;
+  std::printf("\nFrames with something dropped for want of room: %d of %zu.\n\n", frames_with_drops, r.dropped.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Options options = take_options(argc, argv);
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    const FramePool pool = options.data.empty() ? simulated_frames() : recorded_frames(options.data);
+    const PairedResult result = run_paired(pool, options.rounds);
+    print_run(options, pool, result);
+    if (!write_json(options.json, result.rows)) {
+      std::fprintf(stderr, "touchline_bench: %s cannot be written\n", options.json.c_str());
+      return 2;
+    }
+    register_scaling(pool);
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "touchline_bench: %s\n", error.what());
+    return 2;
+  }
+}
