@@ -13,6 +13,7 @@
 #include "vision/features.h"
 #include "vision/image/bit_image.h"
 #include "vision/line_segments.h"
+#include "vision/posts.h"
 #include "vision/work_rays.h"
 
 namespace touchline {
@@ -43,6 +44,7 @@ struct FeatureWork {
   LineSegments lines;
   CircleWork circle;
   JunctionWork junctions;
+  PostWork posts;
 };
 
 /// The centre circle, where it was found (circle.h).

@@ -11,6 +11,7 @@
 #include "vision/image/contour.h"
 #include "vision/image/grow.h"
 #include "vision/image/hull.h"
+#include "vision/image/hsv.h"
 #include "vision/image/morphology.h"
 #include "vision/line_mask.h"
 #include "vision/line_points.h"
@@ -126,6 +127,7 @@ Status Pipeline::process(const FrameInput& input, VisionResult& result, StageObs
   run(Stage::digestion, &Pipeline::digest_skeleton);
   run(Stage::graph, &Pipeline::build_graph);
   run(Stage::junctions, &Pipeline::find_features);
+  run(Stage::posts, &Pipeline::find_goal_posts);
   run(Stage::line_points, &Pipeline::make_line_points);
   next.features = memory_.features;
   result = next;
@@ -294,6 +296,17 @@ void Pipeline::find_features(VisionResult& result) {
                                      {config_.line_width_m, config_.max_range_m}, work.junctions, features);
   result.counts.dropped_junctions =
       dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
+}
+
+void Pipeline::find_goal_posts(VisionResult& result) {
+  const BitView& colour = views_.mask(MaskId::scratch);
+  hsv_in_range(result.mean, config_.white_posts ? config_.white_post : config_.yellow_post, colour);
+  and_with(colour, views_.mask(MaskId::seen));
+  const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
+                      views_.height);
+  result.counts.dropped_posts =
+      find_posts(colour, rays, {result.line_mask, result.green, result.roi}, {config_.post_diameter_m, config_.max_range_m},
+                 memory_.feature_work->posts, memory_.features->posts);
 }
 
 void Pipeline::make_line_points(VisionResult& result) {

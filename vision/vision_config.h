@@ -25,6 +25,7 @@ struct VisionConfig {
 
   HsvRange green{28, 95, 40, 255, 12, 255};  // a wide gate: each frame finds its own range inside
   HsvRange yellow_post{18, 34, 110, 255, 60, 255};
+  HsvRange white_post{0, 179, 0, 70, 140, 255};
   int green_erode_px = 3;   // kernel side, odd; removes specks of green outside the field
   int green_dilate_px = 5;  // kernel side, odd; closes the holes that lines of usual width leave
   int line_dilate_px = 3;   // joins both edges of a line

@@ -34,6 +34,7 @@ struct VisionCounts {
   int dropped_edges = 0;
   int dropped_points = 0;
   int dropped_junctions = 0;
+  int dropped_posts = 0;
   int dropped_line_points = 0;
 };
 
