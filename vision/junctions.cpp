@@ -15,7 +15,12 @@ constexpr float near_px = 3.0F;
 constexpr float near_widths = 0.5F;
 // A branch is a line when it goes on for longer than it is wide; marks and spurs are not.
 constexpr float branch_widths = 1.5F;
-constexpr float branch_px = 4.0F;
+constexpr float branch_px = 3.0F;
+constexpr float long_branch_widths = 2.5F;
+constexpr float bare_widths = 0.4F;  // so much carpet beside a line ends it
+constexpr float bare_px = 2.0F;
+constexpr float flank_px = 1.5F;
+constexpr int flank_samples = 6;
 constexpr float present = 0.8F;  // part of a branch that is white
 constexpr float absent = 0.5F;
 // Two crossings nearer than this are one.
@@ -77,6 +82,10 @@ class JunctionFinder {
     bool seen = true;     // all of it lies in the picture
   };
   [[nodiscard]] Sight look(const GroundPoint& from, const GroundPoint& to) const;
+  [[nodiscard]] bool is_long(const JunctionCandidate& c, float direction) const;
+  [[nodiscard]] bool is_middle(const JunctionCandidate& c, float direction) const;
+  [[nodiscard]] bool has_flanks(const JunctionCandidate& c, float direction, float length) const;
+  [[nodiscard]] bool goes_on(const JunctionCandidate& c, float direction, float length) const;
   [[nodiscard]] Way way(const JunctionCandidate& c, float direction) const;
   void scan(const LineSegment& s);
   void scan_side(const LineSegment& s, const GroundPoint& out, float direction);
@@ -97,7 +106,8 @@ class JunctionFinder {
   };
   bool make_fence(const GroundPoint& p, const GroundPoint& out, float direction, Fence& fence) const;
   [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f) const;
-  void add_stem(const LineSegment& s, const Run& run, float step, float direction);
+  void add_stem(const LineSegment& s, const Run& run, float step, const GroundPoint& out, float direction);
+  [[nodiscard]] bool dark_beside(const LineSegment& s, float t, const GroundPoint& out, float direction) const;
   void merge(std::size_t best);
   void classify(const JunctionCandidate& c);
   void reject(const JunctionCandidate& c, int branches, JunctionRejection reason);
@@ -341,7 +351,7 @@ void JunctionFinder::scan_side(const LineSegment& s, const GroundPoint& out, flo
       if (white >= present) {
         run.add(here, white);
       } else if (run.weight > 0.0F) {
-        add_stem(s, run, step, direction);
+        add_stem(s, run, step, out, direction);
         run = {};
       }
     }
@@ -374,7 +384,15 @@ float JunctionFinder::white_part(const Fence& a, const Fence& b, float f) const 
   return static_cast<float>(white) / static_cast<float>(steps + 1);
 }
 
-void JunctionFinder::add_stem(const LineSegment& s, const Run& run, float step, float direction) {
+/// Two lines a few pixels apart melt here and there; a branch has carpet on both sides.
+bool JunctionFinder::dark_beside(const LineSegment& s, float t, const GroundPoint& out, float direction) const {
+  const GroundPoint p{s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
+  Fence f;
+  return !make_fence(p, out, direction, f) || white_part(f, f, 0.0F) <= absent;
+}
+
+void JunctionFinder::add_stem(const LineSegment& s, const Run& run, float step, const GroundPoint& out,
+                              float direction) {
   const float t = run.sum / run.weight;
   JunctionCandidate c;
   c.ground = {s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
@@ -382,6 +400,8 @@ void JunctionFinder::add_stem(const LineSegment& s, const Run& run, float step, 
   c.other = direction;
   c.sigma = math::sqrt(s.sigma * s.sigma + stem_sigma * stem_sigma);
   const float widest = max_stem_widths * parameters_.line_width_m + max_stem_px * metres_per_px(c.ground, c.heading);
+  const float aside = 0.5F * parameters_.line_width_m + 2.0F * step;
+  if (!dark_beside(s, run.begin - aside, out, direction) || !dark_beside(s, run.end + aside, out, direction)) return;
   if (run.end - run.begin + step > widest || !reaches(s, s.direction, c.ground)) return;
   work_.candidates.push_back(c);
 }
@@ -425,6 +445,48 @@ void JunctionFinder::classify_all() {
   }
 }
 
+/// Whether carpet is seen on both sides of a branch. A post or a foot that stands on a line may look like one.
+bool JunctionFinder::has_flanks(const JunctionCandidate& c, float direction, float length) const {
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  const float px = metres_per_px(c.ground, wrap_angle(direction + math::half_pi));
+  const float aside = 0.75F * parameters_.line_width_m + flank_px * px;
+  for (const float side : {1.0F, -1.0F}) {
+    int carpet = 0, other = 0;
+    for (int i = 0; i < flank_samples; ++i) {
+      const float d = length * (static_cast<float>(i) + 1.0F) / static_cast<float>(flank_samples);
+      WorkPoint w;
+      const GroundPoint p{c.ground.x + d * out.x - side * aside * out.y, c.ground.y + d * out.y + side * aside * out.x};
+      if (!rays_.work_point(p, 0.0F, w) || !(w.u >= 0.0F && w.v >= 0.0F)) continue;
+      const int x = static_cast<int>(w.u);
+      const int y = static_cast<int>(w.v);
+      if (x >= rays_.work_width() || y >= rays_.work_height() || field_.lines.get(x, y)) continue;
+      if (field_.carpet.get(x, y)) {
+        ++carpet;
+      } else {
+        ++other;
+      }
+    }
+    if (other > carpet) return false;
+  }
+  return true;
+}
+
+/// Whether a line that was seen on both sides of an obstacle runs through the junction in a direction.
+bool JunctionFinder::goes_on(const JunctionCandidate& c, float direction, float length) const {
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  const float aside =
+      near_widths * parameters_.line_width_m + metres_per_px(c.ground, wrap_angle(direction + math::half_pi));
+  for (const LineSegment& s : lines_.segments) {
+    if (s.on_circle || s.is_short || s.sigma > scan_sigma) continue;
+    if (angle_between(s.direction, out) > right_angle_tolerance) continue;
+    if (math::abs(across(s, c.ground)) > aside) continue;
+    for (const GroundPoint& end : s.end) {
+      if ((end.x - c.ground.x) * out.x + (end.y - c.ground.y) * out.y > length) return true;
+    }
+  }
+  return false;
+}
+
 /// What leaves the junction in a direction.
 JunctionFinder::Way JunctionFinder::way(const JunctionCandidate& c, float direction) const {
   const float half = 0.5F * parameters_.line_width_m;
@@ -432,13 +494,33 @@ JunctionFinder::Way JunctionFinder::way(const JunctionCandidate& c, float direct
   const float length = min_branch(c.ground, direction);
   const GroundPoint out{math::cos(direction), math::sin(direction)};
   const auto at = [&](float d) { return GroundPoint{c.ground.x + d * out.x, c.ground.y + d * out.y}; };
-  const Sight branch = look(at(half + px), at(half + px + length));
-  if (branch.middle >= present) return Way::line;
+  const Sight branch = look(at(half + 0.5F * px), at(half + 0.5F * px + length));
+  if (branch.white >= present && has_flanks(c, direction, half + length)) return Way::line;
   // The mask of the line across reaches a pixel or two beyond its edge.
   const float edge = 1.3F * half + 2.0F * px;
-  const Sight beyond = look(at(edge), at(edge + 0.5F * length));
-  if (!beyond.seen || beyond.middle > absent || beyond.carpet < present) return Way::hidden;
+  const float enough = math::max(bare_widths * parameters_.line_width_m, bare_px * px);
+  const Sight beyond = look(at(edge), at(edge + enough));
+  if (!beyond.seen || beyond.middle > absent || beyond.carpet < present) {
+    return goes_on(c, direction, half + length) ? Way::line : Way::hidden;
+  }
   return Way::carpet;
+}
+
+bool JunctionFinder::is_long(const JunctionCandidate& c, float direction) const {
+  const float half = 0.5F * parameters_.line_width_m;
+  const float length = long_branch_widths * parameters_.line_width_m;
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  const GroundPoint end{c.ground.x + (half + length) * out.x, c.ground.y + (half + length) * out.y};
+  return look(c.ground, end).white >= present && has_flanks(c, direction, half + length);
+}
+
+bool JunctionFinder::is_middle(const JunctionCandidate& c, float direction) const {
+  const float from = 0.5F * parameters_.line_width_m + metres_per_px(c.ground, direction);
+  const float to = from + min_branch(c.ground, direction);
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  return look({c.ground.x + from * out.x, c.ground.y + from * out.y},
+              {c.ground.x + to * out.x, c.ground.y + to * out.y})
+             .middle >= present;
 }
 
 /// Counts the four ways at right angles: X has four, T three, L two that are not opposite.
@@ -450,13 +532,22 @@ void JunctionFinder::classify(const JunctionCandidate& c) {
   const float second = left ? c.other : wrap_angle(c.other + math::pi);
   const float directions[4] = {c.heading, second, wrap_angle(c.heading + math::pi), wrap_angle(second + math::pi)};
   bool is_line[4] = {};
+  bool thin[4] = {};  // a line, but beside the middle
   int lines = 0;
   bool hidden = false;
   for (int i = 0; i < 4; ++i) {
     const Way w = way(c, directions[i]);
     is_line[i] = w == Way::line;
+    thin[i] = is_line[i] && !is_middle(c, directions[i]);
     lines += is_line[i] ? 1 : 0;
     hidden = hidden || w == Way::hidden;
+  }
+  // The mask beside a bar may look like a fourth branch; a real one is white in its middle.
+  if (lines == 4) {
+    int weak = 0;
+    for (const bool t : thin) weak += t ? 1 : 0;
+    for (int i = 0; i < 4 && weak == 1; ++i) is_line[i] = !thin[i];
+    if (weak == 1) lines = 3;
   }
   if (lines < 2) return reject(c, lines, JunctionRejection::branch_too_short);
   // Straight lines of a field never cross, so what is behind the bar of a T need not be seen.
@@ -467,6 +558,8 @@ void JunctionFinder::classify(const JunctionCandidate& c) {
     int gap = 0;
     while (is_line[gap]) ++gap;
     // The stem is opposite the missing branch; counter-clockwise of it the bar.
+    // With what is behind the bar hidden, a foot on a line could be the stem, were it long enough.
+    if (hidden && !is_long(c, directions[(gap + 2) % 4])) return reject(c, lines, JunctionRejection::at_border);
     const float ordered[3] = {directions[(gap + 2) % 4], directions[(gap + 3) % 4], directions[(gap + 1) % 4]};
     return accept(c, JunctionType::t, ordered, 3, quality);
   }

@@ -58,6 +58,7 @@ struct LineSegmentParameters {
 struct FieldView {
   ConstBitView lines;
   ConstBitView green;
+  ConstBitView carpet;  // the carpet's colour, pixel by pixel
   ConstBitView roi;  // may be empty (words == nullptr): the whole picture
 };
 

@@ -246,6 +246,8 @@ void Pipeline::make_line_mask(VisionResult& result) {
   dilate(lines, scaled(config_.line_dilate_px));
   erode(lines, scaled(config_.line_erode_px));
   and_with(lines, views_.mask(MaskId::roi));
+  find_post_colour(result);
+  if (!config_.white_posts) and_not_with(lines, views_.mask(MaskId::post_colour));
   result.line_mask = lines;
   result.counts.line_pixels = count(lines);
 }
@@ -286,7 +288,7 @@ void Pipeline::find_features(VisionResult& result) {
   features.rejections.clear();
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
-  const FieldView field{result.line_mask, result.green, result.roi};
+  const FieldView field{result.line_mask, result.green, views_.mask(MaskId::green), result.roi};
   find_line_segments(result.graph, rays, field, {config_.line_width_m, config_.max_range_m}, memory_.graph.edge_done,
                      work.lines);
   features.has_circle =
@@ -298,14 +300,18 @@ void Pipeline::find_features(VisionResult& result) {
       dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
 }
 
-void Pipeline::find_goal_posts(VisionResult& result) {
-  const BitView& colour = views_.mask(MaskId::scratch);
+/// A post's edges are as bright beside the carpet as a line's: what has its colour is no line.
+void Pipeline::find_post_colour(const VisionResult& result) {
+  const BitView& colour = views_.mask(MaskId::post_colour);
   hsv_in_range(result.mean, config_.white_posts ? config_.white_post : config_.yellow_post, colour);
   and_with(colour, views_.mask(MaskId::seen));
+}
+
+void Pipeline::find_goal_posts(VisionResult& result) {
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
   result.counts.dropped_posts =
-      find_posts(colour, rays, {result.line_mask, result.green, result.roi}, {config_.post_diameter_m, config_.max_range_m},
+      find_posts(views_.mask(MaskId::post_colour), rays, {result.line_mask, result.green, views_.mask(MaskId::green), result.roi}, {config_.post_diameter_m, config_.max_range_m},
                  memory_.feature_work->posts, memory_.features->posts);
 }
 

@@ -57,6 +57,7 @@ class Pipeline {
   void digest_skeleton(VisionResult& result);
   void build_graph(VisionResult& result);
   void find_features(VisionResult& result);
+  void find_post_colour(const VisionResult& result);
   void find_goal_posts(VisionResult& result);
   void make_line_points(VisionResult& result);
   [[nodiscard]] int scaled(int px) const;

@@ -33,7 +33,8 @@ enum class MaskId : std::uint8_t {
   candidates,   // white search united with Canny
   line_mask,
   skeleton,
-  edges,  // Canny's, before the rule of white and green
+  post_colour,  // the colour of goal posts
+  edges,        // Canny's, before the rule of white and green
   scratch,
   count,
 };

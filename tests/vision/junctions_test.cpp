@@ -124,7 +124,7 @@ TEST_CASE("where the carpet beyond is hidden, a corner has no type") {
   }
   seen.features->junctions.clear();
   seen.features->rejections.clear();
-  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), {}}, {0.10F, 6.0F}, *seen.junction_work,
+  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}}, {0.10F, 6.0F}, *seen.junction_work,
                        *seen.features);
   CHECK(seen.features->junctions.empty());
   CHECK(seen.rejected(JunctionRejection::at_border, {1.0F, 0.2F}));
@@ -136,7 +136,7 @@ TEST_CASE("junctions beyond the range are turned down") {
   Seen seen(scene);
   seen.features->junctions.clear();
   seen.features->rejections.clear();
-  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), {}}, {0.10F, 1.2F}, *seen.junction_work,
+  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}}, {0.10F, 1.2F}, *seen.junction_work,
                        *seen.features);
   CHECK(seen.features->junctions.empty());
   CHECK(seen.rejected(JunctionRejection::too_far, {1.5F, 0.1F}));
