@@ -66,6 +66,12 @@ std::optional<FieldDimensions> field_preset(std::string_view name) {
   return std::nullopt;
 }
 
+void tell_vision(const FieldDimensions& field, VisionConfig& vision) {
+  vision.line_width_m = field.line_width;
+  vision.circle_radius_m = field.circle_radius;
+  vision.post_diameter_m = field.post_diameter;
+}
+
 Status Field::create(const FieldDimensions& dimensions, Field& out, const char** what) {
   const char* wrong = wrong_key(dimensions);
   if (wrong != nullptr) {

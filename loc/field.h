@@ -12,6 +12,7 @@
 #include "platform/core/static_vector.h"
 #include "platform/core/status.h"
 #include "vision/features.h"
+#include "vision/vision_config.h"
 
 namespace touchline {
 
@@ -30,6 +31,9 @@ struct FieldDimensions {
 
 /// "acyut-5x3", "kidsize-9x6" (2017), "small-2026", "middle-2026"; nothing for another name.
 std::optional<FieldDimensions> field_preset(std::string_view name);
+
+/// What vision has to know of a field: width of lines, radius of the circle, diameter of posts.
+void tell_vision(const FieldDimensions& field, VisionConfig& vision);
 
 struct FieldLine {
   FieldPoint a, b;

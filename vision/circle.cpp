@@ -8,6 +8,7 @@ constexpr float bin_width = math::two_pi / static_cast<float>(circle_bins);
 constexpr int vote_step = 3;         // every third point begins a vote
 constexpr float chord_radii = 1.0F;  // of a vote: 60 degrees of arc, which bulge by 0.13 radii
 constexpr float vote_gather_radii = 0.3F;
+constexpr int max_places = 4;        // a field has one circle; corners and clutter gather votes as well
 constexpr int refinements = 6;
 constexpr float min_arc = radians(60.0F);
 constexpr int max_gap_bins = 4;      // 20 degrees may be hidden, as by a foot
@@ -27,6 +28,8 @@ class CircleFinder {
   bool run(CircleObservation& circle);
 
  private:
+  void withdraw_votes(const GroundPoint& centre);
+  bool look_at(const GroundPoint& vote, CircleObservation& circle);
   void vote();
   void vote(std::size_t i, std::size_t middle, std::size_t k);
   [[nodiscard]] bool best_vote(GroundPoint& centre) const;
@@ -73,13 +76,16 @@ void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
   const float bulge = (m.x - half.x) * normal.x + (m.y - half.y) * normal.y;
   const float height = math::sqrt(r * r - 0.25F * chord * chord);
   const float expected = r - height;
+  // Where a skeleton's noise hides the bulge, far away, a straight line votes like an arc: it has no say.
   const float noise = 2.0F * skeleton_px * lines_.points[middle].metres_per_pixel;
+  if (noise > expected) return;
   const float allowed = 0.5F * expected + math::min(noise, 0.5F * expected);
   if (math::abs(math::abs(bulge) - expected) > allowed || math::abs(bulge) < 0.25F * expected) return;
   const float side = bulge > 0.0F ? -height : height;
   work_.votes.push_back({half.x + side * normal.x, half.y + side * normal.y});
 }
 
+/// The place with most votes; those of places that were tried before do not count.
 bool CircleFinder::best_vote(GroundPoint& centre) const {
   int most = 1;
   for (const GroundPoint& v : work_.votes) {
@@ -259,25 +265,48 @@ Sym2 CircleFinder::covariance(const GroundPoint& centre, const Sym2& information
   return c;
 }
 
-bool CircleFinder::run(CircleObservation& circle) {
-  for (LineSegment& s : lines_.segments) s.on_circle = false;
-  GroundPoint centre;
+/// Votes for a place that turned out to be no circle, or is one already looked at.
+void CircleFinder::withdraw_votes(const GroundPoint& centre) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < work_.votes.size(); ++i) {
+    if (distance(work_.votes[i], centre) > vote_gather_radii * parameters_.radius_m) work_.votes[kept++] = work_.votes[i];
+  }
+  work_.votes.truncate(kept);
+}
+
+/// Refines the circle at a vote and measures what is seen of it; false where it is none.
+bool CircleFinder::look_at(const GroundPoint& vote, CircleObservation& circle) {
+  GroundPoint centre = vote;
   Sym2 information;
   float chi = 0.0F;
-  vote();
-  if (!best_vote(centre) || !refine(centre, information, chi)) return false;
+  if (!refine(centre, information, chi)) return false;
   flag_arcs(centre);
   const float seen = arc(centre);
-  if (seen < min_arc || contradicted(centre)) {
-    for (LineSegment& s : lines_.segments) s.on_circle = false;
-    return false;
-  }
+  if (seen < min_arc || contradicted(centre)) return false;
   circle = {};
   circle.centre = centre;
   circle.covariance = covariance(centre, information);
   circle.arc = seen;
   // Full confidence for half a circle whose points scatter as skeleton points do.
   circle.confidence = math::clamp(seen / math::pi, 0.3F, 1.0F) * math::clamp(1.5F - 0.5F * chi, 0.3F, 1.0F);
+  return true;
+}
+
+bool CircleFinder::run(CircleObservation& circle) {
+  vote();
+  bool found = false;
+  GroundPoint centre;
+  for (int tried = 0; tried < max_places && best_vote(centre); ++tried) {
+    CircleObservation other;
+    if (look_at(centre, other) && (!found || other.confidence > circle.confidence)) {
+      circle = other;
+      found = true;
+    }
+    withdraw_votes(centre);
+  }
+  for (LineSegment& s : lines_.segments) s.on_circle = false;
+  if (!found) return false;
+  flag_arcs(circle.centre);
   find_half_line(circle);
   return true;
 }

@@ -92,8 +92,7 @@ const VisionResult& Chain::see(const FrameView& image, double time_s, const Came
     config.work_width = parts_->options.work_width;
     config.work_height = parts_->options.work_height;
     config.fifo_depth = fifo_depth;
-    config.line_width_m = field().dimensions().line_width;
-    config.post_diameter_m = field().dimensions().post_diameter;
+    tell_vision(field().dimensions(), config);
     Lens lens;
     Status status = Lens::create(camera.lens, lens, &what);
     if (status != Status::ok) refused(what, "the lens", status);

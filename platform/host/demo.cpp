@@ -107,8 +107,7 @@ class Demo {
     RobotConfig config;
     config.vision.frame_width = options_.camera.width;
     config.vision.frame_height = options_.camera.height;
-    config.vision.line_width_m = options_.walk.field.line_width;
-    config.vision.post_diameter_m = options_.walk.field.post_diameter;
+    tell_vision(options_.walk.field, config.vision);
     config.lens = options_.camera.lens;
     config.field = options_.walk.field;
     config.seed = command_.seed;

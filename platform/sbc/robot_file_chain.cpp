@@ -75,9 +75,7 @@ void read_field(TomlTable table, RobotFile& file) {
   metres("goal_height_m", field.goal_height);
   metres("post_diameter_m", field.post_diameter);
   metres("border_m", field.border);
-  file.robot.vision.line_width_m = field.line_width;
-  file.robot.vision.circle_radius_m = field.circle_radius;
-  file.robot.vision.post_diameter_m = field.post_diameter;
+  tell_vision(field, file.robot.vision);
   table.finish();
 }
 

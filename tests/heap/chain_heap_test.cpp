@@ -46,7 +46,7 @@ struct Robot {
       test::draw_field(field, projection, path[i], width, height, images[i]);
     }
     VisionConfig vision;
-    vision.line_width_m = field.dimensions().line_width;
+    tell_vision(field.dimensions(), vision);
     REQUIRE(pipeline.configure(vision, lens) == Status::ok);
     LocalizerConfig loc;
     loc.model = model;

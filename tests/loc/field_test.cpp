@@ -221,3 +221,15 @@ TEST_CASE("a field without areas, circle and penalty marks is a field") {
   CHECK(field.landmarks().size() == 6);
   CHECK(field.penalty_marks().empty());
 }
+
+TEST_CASE("vision is told all that it has to know of the field") {
+  FieldDimensions field;
+  field.line_width = 0.11F;
+  field.circle_radius = 0.51F;
+  field.post_diameter = 0.13F;
+  VisionConfig vision;
+  tell_vision(field, vision);
+  CHECK(vision.line_width_m == 0.11F);
+  CHECK(vision.circle_radius_m == 0.51F);
+  CHECK(vision.post_diameter_m == 0.13F);
+}

@@ -30,9 +30,7 @@ Scene make_scene() {
   config.lens = options.camera.lens;
   config.vision.frame_width = scene.width;
   config.vision.frame_height = scene.height;
-  config.vision.line_width_m = options.field.line_width;
-  config.vision.circle_radius_m = options.field.circle_radius;
-  config.vision.post_diameter_m = options.field.post_diameter;
+  tell_vision(options.field, config.vision);
   config.mount.height = frame.mount.height;
   config.mount.pitch = frame.mount.pitch;
   config.mount.roll = frame.mount.roll;
