@@ -8,7 +8,7 @@ NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test check golden accept bench profile format install clean
+.PHONY: help build demo test check golden accept bench profile budget format install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -56,6 +56,10 @@ profile:  ## instructions per stage and frame, by callgrind: a figure that repea
 	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) --parallel $(JOBS) --target profile_chain
 	@bash tests/bench/profile.sh $(BUILD)/tests/bench/profile_chain $(BUILD)
+
+budget: build  ## writes the budget of instructions and bytes anew, for changes of cost that are meant
+	@for gate in cortex_m budget; do bash tests/gates/all.sh $$gate || true; done
+	@for prefix in mps2-an500 x86-64; do bash tests/gates/budget.sh --write $$prefix build/check/$$prefix.figures; done
 
 format:  ## clang-format over all sources
 	@bash $(NEED) check

@@ -88,7 +88,7 @@ const char* to_string(CandidateRejection reason) {
 
 CannyThresholds edge_thresholds(const CarpetModel& carpet) {
   // Binomial and Sobel give noise of sigma a gradient of 1.65 sigma; carpet.noise is in 1/16: 4 * 1.65 / 16 = 0.41.
-  const int low = std::clamp(carpet.noise * 41 / 100, 12, 600);
+  const int low = std::clamp<std::int32_t>(carpet.noise * 41 / 100, 12, 600);
   return {low, 2 * low};
 }
 

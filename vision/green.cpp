@@ -48,7 +48,8 @@ void for_each_sample(const ConstYuv420View& image, ConstBitView ground, Visit vi
 void narrow_hue(const Histogram& hues, HsvRange& range) {
   const auto smooth = [&hues](std::int32_t h) {
     std::int32_t sum = 0;
-    for (std::int32_t k = h - 1; k <= h + 1; ++k) sum += hues[static_cast<std::size_t>(std::clamp(k, 0, 255))];
+    for (std::int32_t k = h - 1; k <= h + 1; ++k)
+      sum += hues[static_cast<std::size_t>(std::clamp<std::int32_t>(k, 0, 255))];
     return sum;
   };
   std::int32_t peak = range.hue_low;
@@ -108,23 +109,23 @@ void measure_ratios(const ConstYuv420View& image, ConstBitView ground, CarpetMod
   std::int32_t roughness = 0, rough_samples = 0;
   for_each_sample(image, ground, [&](const Sample& s) {
     if (!in_range(s.hsv, carpet.green)) return;
-    const std::int32_t luma = std::max(s.luma, 1);
+    const std::int32_t luma = std::max<std::int32_t>(s.luma, 1);
     const std::int32_t along = s.cb * carpet.axis_cb + s.cr * carpet.axis_cr;  // 2^-8
-    ++greenness[static_cast<std::size_t>(std::clamp(along / luma, 0, 255))];
-    ++chroma[static_cast<std::size_t>(std::min((magnitude(s.cb) + magnitude(s.cr)) * 256 / luma, 255))];
+    ++greenness[static_cast<std::size_t>(std::clamp<std::int32_t>(along / luma, 0, 255))];
+    ++chroma[static_cast<std::size_t>(std::min<std::int32_t>((magnitude(s.cb) + magnitude(s.cr)) * 256 / luma, 255))];
     ++lumas[static_cast<std::size_t>(s.luma)];
     if (s.x + 1 < image.y.width && ground.get(s.x - 1, s.y) && ground.get(s.x + 1, s.y)) {
       const std::uint8_t* row = image.y.row(s.y);
       // Clipped, so that a line's edge does not count as noise.
-      roughness += std::min(magnitude(2 * row[s.x] - row[s.x - 1] - row[s.x + 1]), 32);
+      roughness += std::min<std::int32_t>(magnitude(2 * row[s.x] - row[s.x - 1] - row[s.x + 1]), 32);
       ++rough_samples;
     }
   });
-  carpet.greenness_ratio = std::max(percentile(greenness, samples, 50), 1);
-  carpet.chroma_ratio = std::max(percentile(chroma, samples, 50), 1);
+  carpet.greenness_ratio = std::max<std::int32_t>(percentile(greenness, samples, 50), 1);
+  carpet.chroma_ratio = std::max<std::int32_t>(percentile(chroma, samples, 50), 1);
   carpet.shadow_luma = percentile(lumas, samples, 5);
   // Of Gaussian noise sigma the mean of |2 a - b - c| is sqrt(6) sigma sqrt(2 / pi) = 1.954 sigma; 16 / 1.954 = 8.19.
-  carpet.noise = rough_samples == 0 ? 16 : std::max(roughness * 819 / (rough_samples * 100), 4);
+  carpet.noise = rough_samples == 0 ? 16 : std::max<std::int32_t>(roughness * 819 / (rough_samples * 100), 4);
 }
 
 }  // namespace
@@ -151,8 +152,8 @@ void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetM
   if (carpet.samples == 0) return;
   // Little more than half of the carpet's greenness and three quarters of its chroma: in warm light white has a colour
   // of its own, but not the carpet's; a yellow post or an orange ball has more.
-  const std::int32_t per_green = 65536 / std::max(carpet.greenness_ratio * 9 / 16, 1);
-  const std::int32_t per_chroma = 65536 / std::max(carpet.chroma_ratio * 3 / 4, 1);
+  const std::int32_t per_green = 65536 / std::max<std::int32_t>(carpet.greenness_ratio * 9 / 16, 1);
+  const std::int32_t per_chroma = 65536 / std::max<std::int32_t>(carpet.chroma_ratio * 3 / 4, 1);
   std::array<std::uint8_t, max_hsv_width / 2> low{};
   std::array<std::uint8_t, max_hsv_width / 2> high{};
   high.fill(255);
@@ -163,11 +164,11 @@ void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetM
       for (int x = 0; x < image.cb.width; ++x) {
         const std::int32_t cb = cb_row[x] - 128;
         const std::int32_t cr = cr_row[x] - 128;
-        const std::int32_t along = std::max((cb * carpet.axis_cb + cr * carpet.axis_cr) / 256, 0);
+        const std::int32_t along = std::max<std::int32_t>((cb * carpet.axis_cb + cr * carpet.axis_cr) / 256, 0);
         const std::int32_t by_green = along * per_green / 256;
         const std::int32_t by_chroma = (magnitude(cb) + magnitude(cr)) * per_chroma / 256;
         const std::int32_t least = std::max({carpet.shadow_luma, by_green, by_chroma});
-        low[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(std::min(least, 255));
+        low[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(std::min<std::int32_t>(least, 255));
       }
     }
     luma_in_range(image.y.row(y), low.data(), high.data(), image.y.width, white.row(y));

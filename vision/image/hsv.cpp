@@ -28,7 +28,7 @@ constexpr Offsets offsets(std::int32_t cb, std::int32_t cr) {
 /// floor(t / (256 * divisor)), held in 0..256 (negative becomes -1). Reciprocal: floor(2^23 / divisor); the estimate
 /// is at most one too small.
 std::int32_t luma_quotient(std::int32_t t, std::int32_t divisor, std::uint32_t reciprocal) {
-  const std::int32_t u = std::clamp(t >> offset_bits, 0, 256 * divisor);
+  const std::int32_t u = std::clamp<std::int32_t>(t >> offset_bits, 0, 256 * divisor);
   auto q = static_cast<std::int32_t>((static_cast<std::uint32_t>(u) * reciprocal) >> 23);
   q += (q + 1) * divisor <= u ? 1 : 0;
   return t < 0 ? -1 : q;
@@ -51,11 +51,11 @@ Hsv hsv_from_ycbcr(std::uint8_t y, std::uint8_t cb, std::uint8_t cr) {
   const std::int32_t chroma = high - std::min({red, green, blue});
   const std::int32_t value = (std::int32_t{y} << offset_bits) + high;
   Hsv hsv;
-  hsv.value = static_cast<std::uint8_t>(std::clamp((value + 128) >> offset_bits, 0, 255));
+  hsv.value = static_cast<std::uint8_t>(std::clamp<std::int32_t>((value + 128) >> offset_bits, 0, 255));
   if (chroma == 0) return hsv;
   hsv.saturation = 255;
   if (value > 0) {
-    hsv.saturation = static_cast<std::uint8_t>(std::min((510 * chroma + value) / (2 * value), 255));
+    hsv.saturation = static_cast<std::uint8_t>(std::min<std::int32_t>((510 * chroma + value) / (2 * value), 255));
   }
   // 60 half units either side of the channel that is largest; in units of 1 / chroma.
   std::int32_t half_units = 0;
@@ -146,8 +146,8 @@ void HsvFilter::luma_ranges(const std::uint8_t* cb, const std::uint8_t* cr, int 
         luma_quotient(510 * chroma - f.divisor_low_ * largest, f.divisor_low_, f.reciprocal_low_);
     const std::int32_t at_least = f.divisor_high_ == 0 ? 0 : above_high;
     const std::int32_t at_most = f.divisor_low_ == 0 ? 255 : up_to_low;
-    const std::int32_t from = std::max(std::max(0, value_floor - value_offset), at_least);
-    const std::int32_t to = std::min(std::min(255, value_ceiling - value_offset), at_most);
+    const std::int32_t from = std::max<std::int32_t>(std::max<std::int32_t>(0, value_floor - value_offset), at_least);
+    const std::int32_t to = std::min<std::int32_t>(std::min<std::int32_t>(255, value_ceiling - value_offset), at_most);
     const std::int32_t inside = hue & (from <= to ? 1 : 0);
     const std::int32_t coloured_low = inside != 0 ? from : 255;
     const std::int32_t coloured_high = inside != 0 ? to : 0;

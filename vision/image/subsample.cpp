@@ -128,7 +128,7 @@ void change_colour(const std::uint16_t* c0, const std::uint16_t* c1, const std::
   for (int x = 0; x < columns; ++x) {
     const std::int32_t sum = a * static_cast<std::int16_t>(c0[x]) + b * static_cast<std::int16_t>(c1[x]) +
                              c * static_cast<std::int16_t>(c2[x]) + offset;
-    out[x] = static_cast<std::uint8_t>(std::clamp(sum >> shift, 0, 255));
+    out[x] = static_cast<std::uint8_t>(std::clamp<std::int32_t>(sum >> shift, 0, 255));
   }
 }
 
@@ -216,7 +216,7 @@ void Subsampler::set_weights() {
     for_each_tap(horizontal_, x, [&](int i, int weight) {
       if (first < 0) {
         // The last window may reach beyond the row: pairs read a column of no weight there, others move to the left.
-        first = period_ != 0 ? i : std::min(i, horizontal_.source - taps_);
+        first = period_ != 0 ? i : std::min<std::int32_t>(i, horizontal_.source - taps_);
         memory_.first_column[static_cast<std::size_t>(x)] = static_cast<std::uint16_t>(first);
       }
       const int tap = i - first;

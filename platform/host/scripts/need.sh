@@ -15,7 +15,9 @@ for group in "$@"; do
     backends) packages+=(libv4l-dev libgpiod-dev libhidapi-dev) ;;
     bench) packages+=(libbenchmark-dev libopencv-dev libopencv-contrib-dev) ;;
     profile) packages+=(valgrind) ;;
-    *) echo "need.sh: unknown group '$group' (build test check backends bench profile)" >&2; exit 2 ;;
+    cross) packages+=(g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user-static) ;;
+    bare) packages+=(gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm) ;;
+    *) echo "need.sh: unknown group '$group' (build test check backends bench profile cross bare)" >&2; exit 2 ;;
   esac
 done
 
@@ -43,7 +45,7 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "Installing what is missing: ${missing[*]}"
 export DEBIAN_FRONTEND=noninteractive
-install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${missing[@]}")
+install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install -qq -y --no-install-recommends "${missing[@]}")
 "${install[@]}" >/dev/null || { "${as_root[@]}" apt-get update -qq && "${install[@]}" >/dev/null; } || {
   echo "The packages could not be installed. Please look at: sudo apt-get install ${missing[*]}" >&2
   exit 1

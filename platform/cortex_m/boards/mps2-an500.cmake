@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+set(processor_flags "-mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard")
