@@ -24,6 +24,7 @@ const char* to_string(JunctionRejection reason) {
     case JunctionRejection::bad_angles: return "bad_angles";
     case JunctionRejection::too_many_branches: return "too_many_branches";
     case JunctionRejection::at_border: return "at_border";
+    case JunctionRejection::bridge: return "bridge";
     case JunctionRejection::duplicate: return "duplicate";
   }
   return "unknown reason";

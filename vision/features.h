@@ -26,6 +26,7 @@ enum class JunctionRejection : std::uint8_t {
   bad_angles,         // branches are not at right angles on the ground, as lines of a field are
   too_many_branches,  // more than four
   at_border,          // a branch is cut off by the edge of the ROI or of the image
+  bridge,             // a short piece of white between two lines, a T at both ends
   duplicate,          // the same crossing as a better candidate beside it
 };
 const char* to_string(JunctionRejection reason);

@@ -15,7 +15,7 @@ constexpr float near_px = 3.0F;
 constexpr float near_widths = 0.5F;
 // A branch is a line when it goes on for longer than it is wide; marks and spurs are not.
 constexpr float branch_widths = 1.5F;
-constexpr float branch_px = 3.0F;
+constexpr float branch_px = 3.5F;
 constexpr float long_branch_widths = 2.5F;
 constexpr float bare_widths = 0.4F;  // so much carpet beside a line ends it
 constexpr float bare_px = 2.0F;
@@ -36,6 +36,7 @@ constexpr float scan_beyond_widths = 1.0F;
 constexpr float stem_sigma = radians(4.0F);
 constexpr float max_stem_widths = 2.2F;
 constexpr float max_stem_px = 4.0F;
+constexpr float max_bridge_m = 1.5F;
 constexpr float merge_sigmas = 1.3F;         // candidates that are known as well as the best count for the place
 constexpr float sigma_px = 1.0F;             // camera pixels, of the lines' crossing
 constexpr float sigma_tilt = radians(0.5F);  // an IMU's error
@@ -64,6 +65,7 @@ class JunctionFinder {
   void cut_circle();
   void pair_up();
   void classify_all();
+  void drop_bridges();
 
  private:
   enum class Way : std::uint8_t { line, carpet, hidden };
@@ -571,6 +573,35 @@ void JunctionFinder::classify(const JunctionCandidate& c) {
   reject(c, lines, JunctionRejection::straight);
 }
 
+/// Two lines a few pixels apart melt here and there, and the bridge looks like a stem with a T at both ends. The one
+/// line of a field that ends in two T's is the half line, as long as the field is wide.
+void JunctionFinder::drop_bridges() {
+  auto& junctions = features_.junctions;
+  const auto faces = [](const Junction& a, const Junction& b) {
+    const float towards = math::atan2(b.ground.y - a.ground.y, b.ground.x - a.ground.x);
+    return math::abs(angle_difference(a.direction[0], towards)) < radians(25.0F);
+  };
+  bool bridge[max_junctions] = {};
+  for (std::size_t i = 0; i < junctions.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Junction& a = junctions[i];
+      const Junction& b = junctions[k];
+      if (a.type != JunctionType::t || b.type != JunctionType::t) continue;
+      if (distance(a.ground, b.ground) > max_bridge_m || !faces(a, b) || !faces(b, a)) continue;
+      bridge[i] = bridge[k] = true;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < junctions.size(); ++i) {
+    if (bridge[i]) {
+      features_.rejections.push_back({junctions[i].pixel, 3, JunctionRejection::bridge});
+    } else {
+      junctions[kept++] = junctions[i];
+    }
+  }
+  junctions.truncate(kept);
+}
+
 void JunctionFinder::reject(const JunctionCandidate& c, int branches, JunctionRejection reason) {
   RejectedJunction r;
   (void)rays_.projection().pixel(c.ground, r.pixel);
@@ -605,6 +636,7 @@ int find_junctions(const LineSegments& lines, const SeenCircle* circle, const Wo
   finder.cut_circle();
   finder.pair_up();
   finder.classify_all();
+  finder.drop_bridges();
   return static_cast<int>(features.junctions.dropped() + work.candidates.dropped());
 }
 

@@ -49,6 +49,7 @@ const char* short_code(JunctionRejection reason) {
     case JunctionRejection::bad_angles: return "ang";
     case JunctionRejection::too_many_branches: return "many";
     case JunctionRejection::at_border: return "edge";
+    case JunctionRejection::bridge: return "bridge";
     case JunctionRejection::duplicate: return "dup";
   }
   return "?";
