@@ -8,12 +8,14 @@ constexpr float bin_width = math::two_pi / static_cast<float>(circle_bins);
 constexpr int vote_step = 3;         // every third point begins a vote
 constexpr float chord_radii = 1.0F;  // of a vote: 60 degrees of arc, which bulge by 0.13 radii
 constexpr float vote_gather_radii = 0.3F;
-constexpr int max_places = 4;        // a field has one circle; corners and clutter gather votes as well
+constexpr float max_noise = 1.5F;  // 1 sigma of a vote's middle point, in bulges
+constexpr int max_places = 4;      // a field has one circle; corners and clutter gather votes as well
 constexpr int refinements = 6;
 constexpr float min_arc = radians(60.0F);
-constexpr int max_gap_bins = 4;      // 20 degrees may be hidden, as by a foot
+constexpr float sure_arc = radians(120.0F);  // of a place that has not the most votes
+constexpr int max_gap_bins = 4;              // 20 degrees may be hidden, as by a foot
 constexpr float beside_radii = 0.35F;
-constexpr int max_beside = 15;           // percent of directions with line points beside the circle alone
+constexpr int max_beside = 15;       // percent of directions with line points beside the circle alone
 constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
 constexpr float gate = 2.5F;         // sigmas
 constexpr float sigma_tilt = radians(0.5F);
@@ -76,13 +78,14 @@ void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
   const float bulge = (m.x - half.x) * normal.x + (m.y - half.y) * normal.y;
   const float height = math::sqrt(r * r - 0.25F * chord * chord);
   const float expected = r - height;
-  // Where a skeleton's noise hides the bulge, far away, a straight line votes like an arc: it has no say.
-  const float noise = 2.0F * skeleton_px * lines_.points[middle].metres_per_pixel;
-  if (noise > expected) return;
+  const float side = bulge > 0.0F ? -height : height;
+  const GroundPoint centre{half.x + side * normal.x, half.y + side * normal.y};
+  // Where a skeleton's noise hides the bulge, a straight line votes like an arc: it has no say.
+  const float noise = sigma(m, centre);
+  if (noise > max_noise * expected) return;
   const float allowed = 0.5F * expected + math::min(noise, 0.5F * expected);
   if (math::abs(math::abs(bulge) - expected) > allowed || math::abs(bulge) < 0.25F * expected) return;
-  const float side = bulge > 0.0F ? -height : height;
-  work_.votes.push_back({half.x + side * normal.x, half.y + side * normal.y});
+  work_.votes.push_back(centre);
 }
 
 /// The place with most votes; those of places that were tried before do not count.
@@ -189,8 +192,8 @@ float CircleFinder::arc(const GroundPoint& centre) {
   return static_cast<float>(best) * bin_width;
 }
 
-/// Lines that only touch the circle leave it slowly: they have points beside it, in directions where it has none. A true
-/// circle has only the half line beside it.
+/// Lines that only touch the circle leave it slowly: they have points beside it, in directions where it has none. A
+/// true circle has only the half line beside it.
 bool CircleFinder::contradicted(const GroundPoint& centre) const {
   enum : std::uint8_t { nothing = 0, on = 1, beside = 2 };
   std::uint8_t bins[circle_bins] = {};
@@ -269,7 +272,8 @@ Sym2 CircleFinder::covariance(const GroundPoint& centre, const Sym2& information
 void CircleFinder::withdraw_votes(const GroundPoint& centre) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < work_.votes.size(); ++i) {
-    if (distance(work_.votes[i], centre) > vote_gather_radii * parameters_.radius_m) work_.votes[kept++] = work_.votes[i];
+    if (distance(work_.votes[i], centre) > vote_gather_radii * parameters_.radius_m)
+      work_.votes[kept++] = work_.votes[i];
   }
   work_.votes.truncate(kept);
 }
@@ -298,7 +302,8 @@ bool CircleFinder::run(CircleObservation& circle) {
   GroundPoint centre;
   for (int tried = 0; tried < max_places && best_vote(centre); ++tried) {
     CircleObservation other;
-    if (look_at(centre, other) && (!found || other.confidence > circle.confidence)) {
+    if (look_at(centre, other) && (tried == 0 || other.arc > sure_arc) &&
+        (!found || other.confidence > circle.confidence)) {
       circle = other;
       found = true;
     }
@@ -307,6 +312,7 @@ bool CircleFinder::run(CircleObservation& circle) {
   for (LineSegment& s : lines_.segments) s.on_circle = false;
   if (!found) return false;
   flag_arcs(circle.centre);
+  (void)arc(circle.centre);  // leaves what was seen of this one in work_.seen
   find_half_line(circle);
   return true;
 }
