@@ -33,11 +33,14 @@ constexpr int scan_knot_px = 8;     // the lens is asked this often
 constexpr int max_scan_knots = 64;  // a line across the largest working image
 constexpr float scan_beyond_px = 5.0F;
 constexpr float scan_beyond_widths = 1.0F;
-constexpr float stem_sigma = radians(4.0F);
+constexpr float stem_widths = 0.25F;  // 1 sigma of a branch's place; the mask fills its sharp corner
 constexpr float max_stem_widths = 2.2F;
 constexpr float max_stem_px = 4.0F;
 constexpr float max_bridge_m = 1.5F;
-constexpr float merge_sigmas = 1.3F;         // candidates that are known as well as the best count for the place
+constexpr float moved_part = 1.0F;
+constexpr float line_px = 0.4F;  // 1 sigma of a line across, at its middle
+constexpr float line_widths = 0.1F;
+constexpr float merge_sigmas = 1.5F;         // candidates that are known as well as the best count for the place
 constexpr float sigma_px = 1.0F;             // camera pixels, of the lines' crossing
 constexpr float sigma_tilt = radians(0.5F);  // an IMU's error
 
@@ -89,6 +92,7 @@ class JunctionFinder {
   [[nodiscard]] bool has_flanks(const JunctionCandidate& c, float direction, float length) const;
   [[nodiscard]] bool goes_on(const JunctionCandidate& c, float direction, float length) const;
   [[nodiscard]] Way way(const JunctionCandidate& c, float direction) const;
+  [[nodiscard]] float place_sigma(const GroundPoint& p, const LineSegment& a, float along) const;
   void scan(const LineSegment& s);
   void scan_side(const LineSegment& s, const GroundPoint& out, float direction);
   /// Places along a line where the way square to it is white. The mask fills sharp corners a little; what is white all
@@ -164,7 +168,7 @@ void JunctionFinder::cut_circle(float side) {
   const float along = math::sqrt(r * r - across * across) - r;
   JunctionCandidate c;
   c.heading = heading;
-  c.sigma = radians(3.0F);
+  c.sigma = 1.0F;
   c.ground = {guess.x + along * out.x - across * out.y, guess.y + along * out.y + across * out.x};
   const float angle = math::atan2(c.ground.y - circle.centre.y, c.ground.x - circle.centre.x);
   const int ways =
@@ -280,6 +284,17 @@ bool JunctionFinder::reaches(const LineSegment& s, const GroundPoint& direction,
   return look(first ? s.end[0] : s.end[1], at).white >= present;
 }
 
+/// How well a crossing on the line `a` is known, working pixels: `a` across itself, and `along` metres along it.
+float JunctionFinder::place_sigma(const GroundPoint& p, const LineSegment& a, float along) const {
+  const GroundPoint middle{0.5F * (a.end[0].x + a.end[1].x), 0.5F * (a.end[0].y + a.end[1].y)};
+  const float heading = math::atan2(a.direction.y, a.direction.x);
+  const float rag = line_widths * parameters_.line_width_m;
+  const float off =
+      math::hypot(a.sigma * distance(middle, p), rag) / metres_per_px(p, wrap_angle(heading + math::half_pi));
+  const float ahead = math::hypot(along, rag) / metres_per_px(p, heading);
+  return math::sqrt(off * off + ahead * ahead + 2.0F * line_px * line_px);
+}
+
 /// `a` is the one whose direction is known better. A short `b` tells where it is better than how it is turned, and
 /// lines of a field are at right angles: its direction is the mean of both, weighted by what they are good for.
 void JunctionFinder::consider(const LineSegment& a, const LineSegment& b) {
@@ -310,7 +325,12 @@ void JunctionFinder::consider(const LineSegment& a, const LineSegment& b) {
   found.heading = math::atan2(a.direction.y, a.direction.x);
   found.other = math::atan2(direction_b.y, direction_b.x);
   found.off_angle = math::abs(off);
-  found.sigma = math::sqrt(a.sigma * a.sigma + sigma_b * sigma_b);
+  // A plane's direction is best at its own middle; b was turned about the point it is taken from.
+  const float turned = math::sqrt(prior * sigma_b * sigma_b / (prior + sigma_b * sigma_b));
+  const float lever = distance(middle, found.ground);
+  // What it is off from a right angle tells how far thinning has moved its ends.
+  const float moved = moved_part * 0.5F * b.length * math::sin(math::abs(off));
+  found.sigma = place_sigma(found.ground, a, math::hypot(turned * lever, moved));
   if (!reaches(a, a.direction, found.ground) || !reaches(b, direction_b, found.ground)) return;
   if (!right) {
     return reject(found, 2, a.chain == b.chain ? JunctionRejection::curved : JunctionRejection::bad_angles);
@@ -400,7 +420,7 @@ void JunctionFinder::add_stem(const LineSegment& s, const Run& run, float step, 
   c.ground = {s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
   c.heading = math::atan2(s.direction.y, s.direction.x);
   c.other = direction;
-  c.sigma = math::sqrt(s.sigma * s.sigma + stem_sigma * stem_sigma);
+  c.sigma = place_sigma(c.ground, s, stem_widths * parameters_.line_width_m);
   const float widest = max_stem_widths * parameters_.line_width_m + max_stem_px * metres_per_px(c.ground, c.heading);
   const float aside = 0.5F * parameters_.line_width_m + 2.0F * step;
   if (!dark_beside(s, run.begin - aside, out, direction) || !dark_beside(s, run.end + aside, out, direction)) return;
@@ -421,7 +441,7 @@ void JunctionFinder::merge(std::size_t best) {
     if (apart > math::max(radius, same_px * metres_per_px(c.ground, towards))) continue;
     other.taken = true;
     if (other.sigma > merge_sigmas * c.sigma) continue;
-    const float w = 1.0F / math::square(other.sigma + radians(1.0F));
+    const float w = 1.0F / math::square(other.sigma);
     sum.x += w * other.ground.x;
     sum.y += w * other.ground.y;
     weights += w;
@@ -622,7 +642,7 @@ void JunctionFinder::accept(const JunctionCandidate& c, JunctionType type, const
   const CameraPose& pose = rays_.projection().pose();
   const float range = distance(c.ground, {pose.x, pose.y});
   const float near_enough = math::clamp(1.25F - 0.25F * range, 0.3F, 1.0F);  // 1 up to 1 m, 0.5 at 3 m
-  const float sure = math::clamp(1.0F - c.sigma / radians(30.0F), 0.3F, 1.0F);
+  const float sure = math::clamp(1.2F - 0.2F * c.sigma, 0.3F, 1.0F);
   j.confidence = quality * near_enough * sure;
   features_.junctions.push_back(j);
 }

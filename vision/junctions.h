@@ -29,7 +29,7 @@ struct JunctionCandidate {
   float heading = 0.0F;    // of the line that is known better
   float other = 0.0F;      // of the one across it
   float off_angle = 0.0F;  // what they are off from a right angle, before that is made use of
-  float sigma = 0.0F;      // radians, of both directions together
+  float sigma = 0.0F;      // of the place, working pixels
   bool taken = false;      // part of a junction that has been judged
 };
 inline constexpr std::size_t max_junction_candidates = 192;  // a frame of clutter shows half as many
