@@ -14,7 +14,7 @@ constexpr float max_gap_widths = 6.0F;
 constexpr float near_px = 3.0F;
 constexpr float near_widths = 0.5F;
 // A branch is a line when it goes on for longer than it is wide; marks and spurs are not.
-constexpr float branch_widths = 1.5F;
+constexpr float branch_widths = 2.2F;
 constexpr float branch_px = 3.5F;
 constexpr float long_branch_widths = 2.5F;
 constexpr float bare_widths = 0.4F;  // so much carpet beside a line ends it
