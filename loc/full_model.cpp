@@ -23,6 +23,8 @@ constexpr float temper = 0.5F;              // measurements share the frame's er
 constexpr float max_step_nats = 5.0F;       // what one frame may say at most: one bad frame must not lose the pose
 constexpr float search_share = 0.10F;       // of AMCL: from here on the frame's own candidates are looked for
 constexpr float negligible_mass = 1e-5F;    // by the particles' own weights: not worth a closer look
+constexpr float blind_decay = 0.9F;         // of confidence, with nothing in view
+constexpr float vague_sigma = 0.40F;        // m: a pose known no better than this has half the confidence
 constexpr int polish_steps = 3;             // of the best mode on all samples; the others saw the evenly thinned ones
 
 struct Factor {  // lower-triangular square root of a 3x3 covariance
@@ -39,6 +41,12 @@ Factor square_root(const PoseCovariance& c) {
   return f;
 }
 
+/// Of the position: the larger eigenvalue of its 2x2 covariance.
+float largest_variance(const PoseCovariance& c) {
+  const float mean = 0.5F * (c.xx + c.yy);
+  return mean + math::hypot(0.5F * (c.xx - c.yy), c.xy);
+}
+
 bool near(const Pose2& a, const Pose2& b, float distance, float angle) {
   return math::hypot(a.x - b.x, a.y - b.y) < distance && math::abs(angle_difference(a.theta, b.theta)) < angle;
 }
@@ -49,7 +57,7 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   const float average = weigh_particles(yaw);
   if (observation_.line_weight > 1.0F) augmented_.update(average, config_.augmented);
   const float share = frames_ == 0 ? 0.5F : augmented_.random_share(config_.augmented);
-  const bool unsure = !last_.valid || certainty(last_) < config_.confident;
+  const bool unsure = !last_.valid || belief_ < config_.confident;
   if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? 0.25F : 0.0F));
   find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
   refine_clusters(vision, yaw);
@@ -84,7 +92,8 @@ float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& y
          yaw_log_likelihood(yaw, pose.theta);
 }
 
-/// Puts the frame's own candidates in place of the last particles, `share` of all. Those that put lines where there
+/// Puts the frame's own candidates in place of every n-th particle, `share` of all: resampling keeps the order, so that a
+/// run of neighbours is one mode, and would lose it to chance. Candidates that put lines where there
 /// are none have been moved to the end: with little in view many places explain what is seen, and few what is not.
 void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
   find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
@@ -100,7 +109,7 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
   const int count = std::max(1, static_cast<int>(math::min(share, 0.5F) * static_cast<float>(p.count)));
   for (int k = 0; k < count; ++k) {
     const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % std::min(candidates_.size(), max_clusters)];
-    const int i = p.count - 1 - k;
+    const int i = k * p.count / count;
     Pose2 pose = c.pose;
     if (k >= static_cast<int>(max_clusters)) {
       pose.x += 0.08F * rng_.gaussian();
@@ -270,8 +279,13 @@ void Localizer::report_full(PoseEstimate& estimate) {
       estimate.covariance.tt += m.mass * dt * dt;
     }
   }
-  estimate.confidence = mass * math::min(1.0F, 1.5F * best->refined.explained);
-  if (observation_.line_weight < 1.0F) estimate.confidence = 0.9F * math::min(mass, last_.confidence);
+  const float quality =
+      observation_.line_weight < 1.0F ? blind_decay : math::min(1.0F, 1.5F * best->refined.explained);
+  // Along a lone line the pose is open: belief in a mode is one thing, to know where in it the robot stands another.
+  const float known = 1.0F / (1.0F + largest_variance(estimate.covariance) / math::square(vague_sigma));
+  belief_ = quality * (mass + estimate.mirror_confidence);
+  estimate.confidence = quality * known * mass;
+  estimate.mirror_confidence *= quality * known;
 }
 
 }  // namespace touchline

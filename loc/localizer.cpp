@@ -68,6 +68,7 @@ void Localizer::reset(const Prior& prior, std::uint64_t seed) {
   last_ = {};
   frames_ = 0;
   cloud_ = 0;
+  belief_ = 0.0F;
   steady_frames_ = 0;
   draw_from_prior(prior);
 }

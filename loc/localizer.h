@@ -100,6 +100,7 @@ class Localizer {
   PoseEstimate last_{};        // the pose of the frame before, moved by odometry
   double last_time_s_ = 0.0;
   int frames_ = 0;             // since the reset
+  float belief_ = 0.0F;        // in the best mode, up to the mirror: what decides whether to search
   int cloud_ = 0;              // particles that came through the last resampling; the rest were drawn at random
   int steady_frames_ = 0;      // in a row with a sure pose that did not move
   bool configured_ = false;
