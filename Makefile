@@ -8,7 +8,7 @@ NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test check golden accept bench profile budget format install clean
+.PHONY: help build demo test check golden accept bench profile budget fuzz vmtest format install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -60,6 +60,14 @@ profile:  ## instructions per stage and frame, by callgrind: a figure that repea
 budget: build  ## writes the budget of instructions and bytes anew, for changes of cost that are meant
 	@for gate in cortex_m budget; do bash tests/gates/all.sh $$gate || true; done
 	@for prefix in mps2-an500 x86-64; do bash tests/gates/budget.sh --write $$prefix build/check/$$prefix.figures; done
+
+fuzz:  ## each decoder and reader against random input, 10 minutes each (SECONDS=600); finds stay in build/fuzz
+	@bash $(NEED) build backends check
+	@bash tests/fuzz/fuzz.sh --keep $(or $(SECONDS),600)
+
+vmtest: build  ## every backend and the whole robot on a real kernel: Debian's, in QEMU, with virtual devices
+	@bash $(NEED) vm || true
+	@bash tests/vm/vm.sh $(BUILD)
 
 format:  ## clang-format over all sources
 	@bash $(NEED) check

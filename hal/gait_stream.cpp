@@ -7,8 +7,10 @@ namespace {
 
 /// Two quartzes of 100 ppm each.
 constexpr MonotonicNs drift_ppm = 200;
-/// A difference that grows past this at once is a controller that stood still (a debugger), not a late frame.
+/// Frames later than this, so many in a row, come from a controller that stood still (a debugger). Fewer are a burst
+/// that waited in the kernel while this program was busy: its buffer of 4 KiB holds 93.
 constexpr MonotonicNs max_late = one_second;
+constexpr std::uint32_t late_limit = 150;
 /// A frame this far back in the sequence did not overtake others on the line: the controller counts from the start
 /// again.
 constexpr std::int32_t reorder_window = 32;
@@ -22,15 +24,30 @@ MonotonicNs ControllerClock::to_local(std::uint32_t controller_us, MonotonicNs a
     started_ = true;
     controller_ = 0;
     offset_ = arrival;
+    late_ = 0;
+    last_local_ = arrival - 1;
   } else {
     const MonotonicNs step = static_cast<MonotonicNs>(controller_us - last_us_) * 1000;  // right across the wrap
     controller_ += step;
     offset_ += step / 1'000'000 * drift_ppm;
-    const MonotonicNs seen = arrival - controller_;
-    if (seen < offset_ || seen - offset_ > max_late) offset_ = seen;
+    follow(arrival - controller_);
   }
   last_us_ = controller_us;
-  return controller_ + offset_;
+  const MonotonicNs local = controller_ + offset_;
+  last_local_ = local > last_local_ ? local : last_local_ + 1;
+  return last_local_;
+}
+
+void ControllerClock::follow(MonotonicNs seen) {
+  if (seen - offset_ <= max_late) {
+    late_ = 0;
+    if (seen < offset_) offset_ = seen;
+    return;
+  }
+  late_offset_ = late_ == 0 || seen < late_offset_ ? seen : late_offset_;
+  if (++late_ < late_limit) return;
+  offset_ = late_offset_;
+  late_ = 0;
 }
 
 Result<GaitSample> GaitStream::push(std::uint8_t byte, MonotonicNs arrival) {

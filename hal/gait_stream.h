@@ -19,10 +19,15 @@ class ControllerClock {
   void reset() { started_ = false; }
 
  private:
+  void follow(MonotonicNs seen);
+
   bool started_ = false;
   std::uint32_t last_us_ = 0;
-  MonotonicNs controller_ = 0;  // the controller's time without wrapping, ns
-  MonotonicNs offset_ = 0;      // local minus controller
+  MonotonicNs controller_ = 0;   // the controller's time without wrapping, ns
+  MonotonicNs offset_ = 0;       // local minus controller
+  std::uint32_t late_ = 0;       // frames in a row that came so late that the controller may have stood still
+  MonotonicNs late_offset_ = 0;  // the smallest difference among them
+  MonotonicNs last_local_ = 0;   // what was answered last: answers grow
 };
 
 class GaitStream {

@@ -23,6 +23,11 @@ v4l2_buffer capture_buffer() {
   return buffer;
 }
 
+bool another_waits(int descriptor) {
+  pollfd ready{descriptor, POLLIN, 0};
+  return poll(&ready, 1, 0) == 1 && (ready.revents & POLLIN) != 0;
+}
+
 }  // namespace
 
 Result<CameraFrame> V4l2Camera::do_acquire(MonotonicNs deadline) {
@@ -70,6 +75,8 @@ Result<CameraFrame> V4l2Camera::take_newest() {
   std::uint32_t passed_over = 0;
   std::uint32_t lost = 0;
   for (std::size_t i = 0; i < buffer_count_; ++i) {
+    // Asked first, since libv4l2 writes a line to standard error for each try that finds nothing.
+    if (found && !another_waits(descriptor_)) break;
     v4l2_buffer buffer{};
     if (dequeue(buffer) != 0) {
       if (errno == EAGAIN) break;

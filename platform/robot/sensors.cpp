@@ -131,7 +131,7 @@ CameraAttitude Sensors::attitude_at(MonotonicNs time) const {
     input.torso_roll = torso.value().roll;
     input.torso_pitch = torso.value().pitch;
   }
-  const Result<HeadState> head = head_.at(time, head_ahead);
+  const Result<HeadState> head = head_.at(time, config_.gait_stale);  // held a while: better than the attitude at rest
   if (head.ok()) {
     const HeadState& state = head.value();
     input.has_camera = state.has_camera;

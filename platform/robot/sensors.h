@@ -57,7 +57,6 @@ class Sensors {
   /// More waits only after a stall, and then the rest is read in the next turn.
   static constexpr int max_reads = 256;
   static constexpr std::size_t head_capacity = 100;  // half a second of a 200 Hz link
-  static constexpr MonotonicNs head_ahead = 50 * one_millisecond;
 
   void service_imu(MonotonicNs now, EventFaults& events);
   void service_gait(MonotonicNs now, EventFaults& events);

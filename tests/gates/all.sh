@@ -75,9 +75,18 @@ gate_budget() {
   bash tests/gates/host_figures.sh build "$checks/x86-64.figures" || return $?
   bash tests/gates/budget.sh --check x86-64 "$checks/x86-64.figures"
 }
+# Random input for the decoders and readers, half a minute each from the corpus that is kept.
+gate_fuzz() { bash tests/fuzz/fuzz.sh 30; }
+# The whole robot on a real kernel, by the build of the gate "test". "skipped" is said where QEMU cannot be had.
+gate_vm() {
+  local status=0
+  bash tests/vm/vm.sh build >"$checks/vm.log" 2>&1 || status=$?
+  [ $status = 0 ] || [ $status = 77 ] || { cat "$checks/vm.log"; return 1; }
+  grep -E '^(robot:|vmtest:|skipped)' "$checks/vm.log"
+}
 gate_tidy() { configure clang clang clang++ && bash tests/gates/tidy.sh "$checks/clang"; }
 
-all=(format test clang core sanitize tidy golden accept arm64 armhf cortex_m budget)
+all=(format test clang core sanitize tidy golden fuzz vm accept arm64 armhf cortex_m budget)
 mkdir -p "$checks"
 for gate in "${@:-${all[@]}}"; do
   declare -F "gate_$gate" >/dev/null || { echo "all.sh: unknown gate '$gate' (${all[*]})" >&2; exit 2; }

@@ -99,9 +99,11 @@ TEST_CASE("without pictures the pose follows the odometry") {
 }
 
 TEST_CASE("IMU missing, unplugged, silent, garbled: the pose goes on without it") {
-  for (const auto& [mode, fault] :
+  for (const auto& row :
        {std::pair{TestImu::Mode::missing, Fault::imu_missing}, std::pair{TestImu::Mode::silent, Fault::imu_stale},
         std::pair{TestImu::Mode::garbage, Fault::imu_garbage}}) {
+    const auto mode = row.first;
+    const Fault fault = row.second;
     INFO(doctest::String(to_string(fault)));
     TestRobot robot;
     settle(robot);
@@ -146,9 +148,11 @@ TEST_CASE("an IMU that comes back with a new zero does not pick the wrong half")
 }
 
 TEST_CASE("gait link missing, silent, corrupt: the motion is unknown, the pictures carry the pose") {
-  for (const auto& [mode, fault] :
+  for (const auto& row :
        {std::pair{TestGait::Mode::missing, Fault::gait_missing}, std::pair{TestGait::Mode::silent, Fault::gait_silent},
         std::pair{TestGait::Mode::corrupt, Fault::gait_corrupt}}) {
+    const auto mode = row.first;
+    const Fault fault = row.second;
     INFO(doctest::String(to_string(fault)));
     TestRobot robot;
     settle(robot);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that a make target misses: as root, or by sudo where it asks no password. Else it prints
 # the exact command and fails. Says nothing and touches nothing when all is there.
-#   need.sh GROUP...    groups: build test check backends bench profile
+#   need.sh GROUP...    groups: build test check backends vm bench profile
 set -euo pipefail
 
 packages=()
@@ -12,6 +12,7 @@ for group in "$@"; do
                       libpng-dev libjpeg-dev) ;;
     test) packages+=(binutils doctest-dev pkgconf) ;;
     check) packages+=(clang clang-format clang-tidy ninja-build ccache) ;;
+    vm) packages+=(qemu-system-x86 busybox-static cpio kmod) ;;
     backends) packages+=(libv4l-dev libgpiod-dev libhidapi-dev) ;;
     bench) packages+=(libbenchmark-dev libopencv-dev libopencv-contrib-dev) ;;
     profile) packages+=(valgrind) ;;
