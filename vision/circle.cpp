@@ -14,9 +14,11 @@ constexpr int refinements = 6;
 constexpr float min_arc = radians(60.0F);
 constexpr float sure_arc = radians(120.0F);  // of a place that has not the most votes
 constexpr int max_gap_bins = 4;              // 20 degrees may be hidden, as by a foot
+constexpr float max_off_radii = 0.2F;        // of an arc, however little is known of it
 constexpr float beside_radii = 0.35F;
-constexpr int max_beside = 15;       // percent of directions with line points beside the circle alone
+constexpr int max_beside = 20;       // percent of directions with line points beside the circle alone
 constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
+constexpr float rag_widths = 0.15F;  // and what the ragged edge of a wide line adds
 constexpr float gate = 2.5F;         // sigmas
 constexpr float sigma_tilt = radians(0.5F);
 
@@ -119,7 +121,8 @@ float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre) const
   const float radius = distance(p, centre) + 1.0e-6F;
   const float c = (x * (p.x - centre.x) + y * (p.y - centre.y)) / (range * radius);
   return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c) +
-                    math::square(0.1F * parameters_.line_width_m));
+                    math::square(rag_widths * parameters_.line_width_m) +
+                    math::square(sigma_tilt * range * parameters_.radius_m / pose.height));
 }
 
 bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const {
@@ -201,7 +204,7 @@ bool CircleFinder::contradicted(const GroundPoint& centre) const {
     float off = distance(p.ground, centre) - parameters_.radius_m;
     if (math::abs(off) > beside_radii * parameters_.radius_m) continue;
     float sigma_m = 1.0F;
-    const bool near = near_circle(p.ground, centre, off, sigma_m);
+    const bool near = near_circle(p.ground, centre, off, sigma_m) || math::abs(off) < 1.5F * gate * sigma_m;
     const float angle = math::atan2(p.ground.y - centre.y, p.ground.x - centre.x) + math::pi;
     const int bin = static_cast<int>(angle / bin_width);
     bins[bin < circle_bins ? bin : 0] |= near ? on : beside;
@@ -224,7 +227,8 @@ void CircleFinder::flag_arcs(const GroundPoint& centre) {
       const float t = static_cast<float>(k) / 4.0F;
       const GroundPoint p{s.end[0].x + t * (s.end[1].x - s.end[0].x), s.end[0].y + t * (s.end[1].y - s.end[0].y)};
       const float off = math::abs(distance(p, centre) - parameters_.radius_m);
-      all = all && off < 2.0F * sigma(p, centre) + 0.5F * parameters_.line_width_m;
+      all = all && off < math::min(2.0F * sigma(p, centre) + 0.5F * parameters_.line_width_m,
+                                   max_off_radii * parameters_.radius_m);
     }
     s.on_circle = all;
   }
