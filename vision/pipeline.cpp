@@ -303,8 +303,8 @@ void Pipeline::find_features(VisionResult& result) {
 /// A post's edges are as bright beside the carpet as a line's: what has its colour is no line.
 void Pipeline::find_post_colour(const VisionResult& result) {
   const BitView& colour = views_.mask(MaskId::post_colour);
-  hsv_in_range(result.mean, config_.white_posts ? config_.white_post : config_.yellow_post, colour);
-  and_with(colour, views_.mask(MaskId::seen));
+  hsv_in_range(result.mean, config_.white_posts ? config_.white_post : config_.yellow_post, views_.mask(MaskId::seen),
+               colour);
 }
 
 void Pipeline::find_goal_posts(VisionResult& result) {

@@ -12,7 +12,7 @@ budget=$(dirname "$0")/budget.txt
 [ -s "$figures" ] || { echo "budget: $figures has no figures" >&2; exit 2; }
 
 if [ "$mode" = --write ]; then
-  { grep '^#' "$budget"; { grep -v '^#' "$budget" | awk -v p="$prefix." 'index($1, p) != 1'; cat "$figures"; } | sort; } >"$budget.new"
+  { grep '^#' "$budget"; { awk -v p="$prefix." '!/^#/ && index($1, p) != 1' "$budget"; cat "$figures"; } | sort; } >"$budget.new"
   mv "$budget.new" "$budget"
   exit 0
 fi

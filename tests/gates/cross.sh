@@ -19,8 +19,8 @@ names='^(core|hal|loc|vision|vision_image|vision_lens)$'
 arguments=(-DTOUCHLINE_HOST=OFF -DTOUCHLINE_BACKENDS=OFF)
 if bash platform/sbc/sysroot.sh "$architecture" "$folder-sysroot" >"$log" 2>&1; then
   arguments=("-DTOUCHLINE_SYSROOT=$PWD/$folder-sysroot")
-  tests+=(golden_outputs playback test_hal_linux)
-  names='^(core|hal|hal_linux|loc|vision|vision_image|vision_lens|golden|playback)$'
+  tests+=(golden_outputs playback test_hal_linux_camera test_hal_linux_imu test_hal_linux_gait)
+  names='^(core|hal|hal_linux_camera|hal_linux_imu|hal_linux_gait|loc|vision|vision_image|vision_lens|golden|playback)$'
   [ "$architecture" = arm64 ] && tests+=(touchline)  # links all backends with the real libraries
 else
   echo "skipped: golden outputs and backends on $architecture: $(tail -1 "$log")"

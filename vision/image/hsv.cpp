@@ -7,7 +7,7 @@
 #include <array>
 
 #include "vision/image/bit_ops.h"
-#include "vision/image/bit_pack.h"
+#include "vision/image/luma_window.h"
 
 namespace touchline {
 namespace {
@@ -128,17 +128,24 @@ void HsvFilter::luma_ranges(const std::uint8_t* cb, const std::uint8_t* cr, int 
   const std::int32_t value_ceiling = f.value_high_ == 255 ? beyond_all : f.value_high_;
   const std::int32_t neutral_low = f.neutral_.low;
   const std::int32_t neutral_high = f.neutral_.high;
-  // No branch in the loop, so that it vectorises.
+  // No branch in the loop where it vectorises; else what has another hue is left at once.
   for (int i = 0; i < count; ++i) {
     const std::int32_t b = cb[i] - 128;
     const std::int32_t r = cr[i] - 128;
-    const auto [red, green, blue] = offsets(b, r);
-    const std::int32_t largest = std::max(std::max(red, green), blue);
-    const std::int32_t chroma = largest - std::min(std::min(red, green), blue);
     const std::int32_t past_first = f.from_.a * b + f.from_.b * r >= 0 ? 1 : 0;
     const std::int32_t before_last = f.to_.a * b + f.to_.b * r < 0 ? 1 : 0;
     const std::int32_t hue = any | (past_first & before_last) | (wide & (past_first | before_last));
 
+    if constexpr (!vector_registers) {
+      if (hue == 0 && (b != 0 || r != 0)) {
+        low[i] = 255;
+        high[i] = 0;
+        continue;
+      }
+    }
+    const auto [red, green, blue] = offsets(b, r);
+    const std::int32_t largest = std::max(std::max(red, green), blue);
+    const std::int32_t chroma = largest - std::min(std::min(red, green), blue);
     const std::int32_t value_offset = (largest + 128) >> offset_bits;
     const std::int32_t above_high =
         luma_quotient(510 * chroma - f.divisor_high_ * largest, f.divisor_high_, f.reciprocal_high_) + 1;
@@ -156,38 +163,34 @@ void HsvFilter::luma_ranges(const std::uint8_t* cb, const std::uint8_t* cr, int 
   }
 }
 
-void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, int width, BitWord* out) {
-  for (int first = 0; first < width; first += bits_per_word) {
-    const int used = std::min(bits_per_word, width - first);
-    // Whole words of fixed length: 32 chroma samples, each twice, and 64 lumas.
-    std::array<std::uint8_t, bits_per_word> from{};
-    std::array<std::uint8_t, bits_per_word> to{};
-    std::array<std::uint8_t, bits_per_word> flags{};
-    const int samples = (used + 1) / 2;
-    for (int i = 0; i < samples; ++i) {
-      const auto x = static_cast<std::size_t>(2 * i);
-      from[x] = from[x + 1] = low[first / 2 + i];
-      to[x] = to[x + 1] = high[first / 2 + i];
-    }
-    for (int i = 0; i < used; ++i) {
-      const auto x = static_cast<std::size_t>(i);
-      const std::uint8_t luma = y[first + i];
-      flags[x] = static_cast<std::uint8_t>((luma >= from[x] ? 1 : 0) & (luma <= to[x] ? 1 : 0));
-    }
-    out[first / bits_per_word] = pack_flags(flags.data());
+void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, ConstBitView region,
+                   int row, BitWord* out) {
+  const BitWord* wanted = region.row(row);
+  for (int i = 0; i < words_for(region.width); ++i) {
+    const int first = i * bits_per_word;
+    const int used = std::min(bits_per_word, region.width - first);
+    out[i] = wanted[i] == 0 ? 0 : luma_window(y + first, low + first / 2, high + first / 2, used) & wanted[i];
   }
 }
 
-void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, BitView out) {
+void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBitView region, BitView out) {
   assert(picture.y.width <= max_hsv_width && picture.y.width == out.width && picture.y.height == out.height);
   const HsvFilter filter(range);
+  constexpr int pairs = bits_per_word / 2;
   std::array<std::uint8_t, max_hsv_width / 2> low;
   std::array<std::uint8_t, max_hsv_width / 2> high;
   for (int y = 0; y < out.height; ++y) {
     if (y % 2 == 0) {
-      filter.luma_ranges(picture.cb.row(y / 2), picture.cr.row(y / 2), picture.cb.width, low.data(), high.data());
+      const BitWord* upper = region.row(y);
+      const BitWord* lower = region.row(std::min(y + 1, out.height - 1));
+      for (int i = 0; i < words_for(out.width); ++i) {
+        if ((upper[i] | lower[i]) == 0) continue;
+        const int first = i * pairs;
+        filter.luma_ranges(picture.cb.row(y / 2) + first, picture.cr.row(y / 2) + first,
+                           std::min(pairs, picture.cb.width - first), low.data() + first, high.data() + first);
+      }
     }
-    luma_in_range(picture.y.row(y), low.data(), high.data(), out.width, out.row(y));
+    luma_in_range(picture.y.row(y), low.data(), high.data(), region, y, out.row(y));
   }
 }
 

@@ -66,12 +66,15 @@ class HsvFilter {
   LumaBand neutral_;  // for gray, which has no hue
 };
 
-/// out = pixels of the picture whose colour is in the range. `out` has the size of the luma plane.
+/// out = pixels of the region whose colour is in the range. Both masks have the size of the luma plane.
 /// Widths up to max_hsv_width.
 inline constexpr int max_hsv_width = 1280;
-void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, BitView out);
+void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBitView region, BitView out);
 
-/// Bits of one row: low[x / 2] <= y[x] <= high[x / 2]. For filters whose luma ranges come from elsewhere.
-void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, int width, BitWord* out);
+/// Bits of one row: low[x / 2] <= y[x] <= high[x / 2], and inside the region. For filters whose luma ranges come from
+/// elsewhere. The ranges need not be there where neither this row of the region nor its partner's has a pixel of a
+/// word.
+void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, ConstBitView region,
+                   int row, BitWord* out);
 
 }  // namespace touchline

@@ -8,6 +8,7 @@
 
 #include "vision/image/colour_matrix.h"
 #include "vision/image/lanes.h"
+#include "vision/image/same_size.h"
 #include "vision/image/unpack.h"
 
 namespace touchline {
@@ -279,6 +280,10 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     return Status::invalid_argument;
   }
 
+  if (frame.format == PixelFormat::yuyv && frame.width == width && frame.height == height && height % 2 == 0) {
+    stretch_yuyv(frame, out);
+    return Status::ok;
+  }
   const ColourMatrix matrix = colour_matrix(frame.format);
   const auto change = [](const Channels& row, int columns, const ColourRow& m, std::uint8_t* to) {
     change_colour(row.channel[0], row.channel[1], row.channel[2], columns, m, to);

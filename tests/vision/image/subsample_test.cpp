@@ -184,6 +184,31 @@ TEST_CASE("limited range YUYV is stretched to full range") {
   CHECK(picture.cr.samples == std::vector<std::uint8_t>{192, 55});
 }
 
+TEST_CASE("YUYV of the working size gives what the general way gives of every pixel four times") {
+  constexpr int width = 38, height = 26;
+  Frame small(PixelFormat::yuyv, width, height);
+  fill_random(small, 11);
+  Frame large(PixelFormat::yuyv, 2 * width, 2 * height);
+  for (int y = 0; y < 2 * height; ++y) {
+    for (int x = 0; x < 2 * width; ++x) {
+      // A pixel becomes a pair with the chroma of the pair it is from.
+      const int pair = x / 4 * 4;
+      const int from[2] = {x / 2 * 2, pair + (x % 2 == 0 ? 1 : 3)};
+      large.byte(y, 2 * x) = small.byte(y / 2, from[0]);
+      large.byte(y, 2 * x + 1) = small.byte(y / 2, from[1]);
+    }
+  }
+  const Picture direct = subsample(small, width, height);
+  const Picture general = subsample(large, width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      CHECK(direct.y.view().at(x, y) == general.y.view().at(x, y));
+      CHECK(direct.cb.view().at(x / 2, y / 2) == general.cb.view().at(x / 2, y / 2));
+      CHECK(direct.cr.view().at(x / 2, y / 2) == general.cr.view().at(x / 2, y / 2));
+    }
+  }
+}
+
 TEST_CASE("bytes beyond the row are never looked at") {
   Frame tight(PixelFormat::rgb24, 33, 21, 0), padded(PixelFormat::rgb24, 33, 21, 40);
   fill_random(tight, 6);
