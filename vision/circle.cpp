@@ -5,8 +5,11 @@ namespace touchline {
 namespace {
 
 constexpr float bin_width = math::two_pi / static_cast<float>(circle_bins);
-constexpr int vote_step = 3;         // every third point begins a vote
-constexpr float chord_radii = 1.0F;  // of a vote: 60 degrees of arc, which bulge by 0.13 radii
+constexpr int vote_step = 3;             // every third point begins a vote
+constexpr float chord_radii = 1.0F;      // of a vote: 60 degrees of arc, which bulge by 0.13 radii
+constexpr float min_chord = 0.7F;        // of it, where the chain ends
+constexpr float max_piece_radii = 1.0F;  // a straight stretch longer than this is no arc
+constexpr float max_piece_sigma = radians(12.0F);
 constexpr float vote_gather_radii = 0.3F;
 constexpr float max_noise = 1.5F;  // 1 sigma of a vote's middle point, in bulges
 constexpr int max_places = 4;      // a field has one circle; corners and clutter gather votes as well
@@ -35,6 +38,7 @@ class CircleFinder {
   void withdraw_votes(const GroundPoint& centre);
   bool look_at(const GroundPoint& vote, CircleObservation& circle);
   void vote();
+  void vote_by_pieces();
   void vote(std::size_t i, std::size_t middle, std::size_t k);
   [[nodiscard]] bool best_vote(GroundPoint& centre) const;
   [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre) const;
@@ -52,7 +56,7 @@ class CircleFinder {
   CircleWork& work_;
 };
 
-/// Three points of a chain a radius apart.
+/// Three points of a chain, a radius apart where the chain is long enough: forks and dirt break a circle's skeleton.
 void CircleFinder::vote() {
   work_.votes.clear();
   const auto& points = lines_.points;
@@ -60,10 +64,23 @@ void CircleFinder::vote() {
   std::size_t k = 0;
   for (std::size_t i = 0; i < points.size(); i += vote_step) {
     if (k < i) k = i;
-    while (k < points.size() && points[k].chain == points[i].chain &&
-           distance(points[k].ground, points[i].ground) < chord)
+    while (k + 1 < points.size() && points[k + 1].chain == points[i].chain &&
+           distance(points[k].ground, points[i].ground) < chord) {
       ++k;
-    if (k < points.size() && points[k].chain == points[i].chain) vote(i, (i + k) / 2, k);
+    }
+    if (distance(points[k].ground, points[i].ground) >= min_chord * chord) vote(i, (i + k) / 2, k);
+  }
+  vote_by_pieces();
+}
+
+/// Worn or dirty lines leave chains too short to bulge. Each piece still tells two places: a radius to either side.
+void CircleFinder::vote_by_pieces() {
+  for (const LineSegment& s : lines_.segments) {
+    if (s.length > max_piece_radii * parameters_.radius_m || s.sigma > max_piece_sigma) continue;
+    const GroundPoint middle{0.5F * (s.end[0].x + s.end[1].x), 0.5F * (s.end[0].y + s.end[1].y)};
+    for (const float r : {parameters_.radius_m, -parameters_.radius_m}) {
+      work_.votes.push_back({middle.x - r * s.direction.y, middle.y + r * s.direction.x});
+    }
   }
 }
 
@@ -92,12 +109,13 @@ void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
 
 /// The place with most votes; those of places that were tried before do not count.
 bool CircleFinder::best_vote(GroundPoint& centre) const {
+  const float gather = vote_gather_radii * parameters_.radius_m;
   int most = 1;
   for (const GroundPoint& v : work_.votes) {
     int count = 0;
     GroundPoint sum;
     for (const GroundPoint& w : work_.votes) {
-      if (distance(v, w) > vote_gather_radii * parameters_.radius_m) continue;
+      if (math::square(v.x - w.x) + math::square(v.y - w.y) > gather * gather) continue;
       ++count;
       sum.x += w.x;
       sum.y += w.y;

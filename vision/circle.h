@@ -20,7 +20,7 @@ struct CircleParameters {
 };
 
 inline constexpr int circle_bins = 72;                // 5 degrees each
-inline constexpr std::size_t max_circle_votes = 256;  // every third of max_curve_points
+inline constexpr std::size_t max_circle_votes = 384;  // every third of max_curve_points, and pieces of arcs
 
 struct CircleWork {
   StaticVector<GroundPoint, max_circle_votes> votes;
