@@ -17,6 +17,22 @@ float off(float direction, float degrees_expected) {
   return math::abs(angle_difference(direction, radians(degrees_expected)));
 }
 
+/// Takes the carpet away where `hidden` says so, as an obstacle would, and judges the junctions again.
+template <typename Hidden>
+void hide(Seen& seen, Hidden hidden) {
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      GroundPoint p;
+      const WorkPoint w{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
+      if (seen.projection.ground(seen.rays->camera_pixel(w), p) && hidden(p)) seen.carpet.view().set(x, y, false);
+    }
+  }
+  seen.features->junctions.clear();
+  seen.features->rejections.clear();
+  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}},
+                       {0.10F, 6.0F}, *seen.junction_work, *seen.features);
+}
+
 }  // namespace
 
 TEST_CASE("an L at a range of distances: one junction, place, order and directions of branches") {
@@ -124,8 +140,8 @@ TEST_CASE("where the carpet beyond is hidden, a corner has no type") {
   }
   seen.features->junctions.clear();
   seen.features->rejections.clear();
-  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}}, {0.10F, 6.0F}, *seen.junction_work,
-                       *seen.features);
+  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}},
+                       {0.10F, 6.0F}, *seen.junction_work, *seen.features);
   CHECK(seen.features->junctions.empty());
   CHECK(seen.rejected(JunctionRejection::at_border, {1.0F, 0.2F}));
 }
@@ -136,10 +152,45 @@ TEST_CASE("junctions beyond the range are turned down") {
   Seen seen(scene);
   seen.features->junctions.clear();
   seen.features->rejections.clear();
-  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}}, {0.10F, 1.2F}, *seen.junction_work,
-                       *seen.features);
+  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}},
+                       {0.10F, 1.2F}, *seen.junction_work, *seen.features);
   CHECK(seen.features->junctions.empty());
   CHECK(seen.rejected(JunctionRejection::too_far, {1.5F, 0.1F}));
+}
+
+TEST_CASE("a bridge between two lines, a T at both ends, is dirt and no line") {
+  Scene scene;
+  scene.lines = {{{1.0F, -1.5F}, {1.0F, 1.5F}}, {{1.45F, -1.5F}, {1.45F, 1.5F}}, {{1.0F, 0.2F}, {1.45F, 0.2F}}};
+  const Seen seen(scene);
+  CHECK(seen.features->junctions.empty());
+  CHECK(seen.rejected(JunctionRejection::bridge, {1.0F, 0.2F}));
+}
+
+TEST_CASE("a white foot that stands on a line is no stem: no carpet beside it") {
+  Scene scene;
+  scene.lines = {{{1.2F, -1.5F}, {1.2F, 1.5F}}, {{0.9F, 0.1F}, {1.2F, 0.1F}}};
+  Seen seen(scene);
+  REQUIRE(seen.count(JunctionType::t) == 1);
+  hide(seen, [](const GroundPoint& p) { return p.x > 0.75F && p.x < 1.1F && math::abs(p.y - 0.1F) < 0.25F; });
+  CHECK(seen.features->junctions.empty());
+}
+
+TEST_CASE("a T whose far side is hidden is a T: straight lines of a field never cross") {
+  Scene scene;
+  scene.lines = {{{1.2F, -1.5F}, {1.2F, 1.5F}}, {{0.5F, 0.1F}, {1.2F, 0.1F}}};
+  Seen seen(scene);
+  hide(seen, [](const GroundPoint& p) { return p.x > 1.32F; });
+  CHECK(seen.count(JunctionType::t) == 1);
+}
+
+TEST_CASE("a line behind a post goes on: the T beside it has its bar") {
+  Scene scene;
+  scene.lines = {{{1.2F, -1.5F}, {1.2F, -0.35F}}, {{1.2F, -0.05F}, {1.2F, 1.5F}}, {{0.5F, 0.1F}, {1.2F, 0.1F}}};
+  Seen seen(scene);
+  hide(seen, [](const GroundPoint& p) { return p.x > 1.1F && p.y > -0.35F && p.y < 0.0F; });
+  const Junction* t = seen.nearest(JunctionType::t, {1.2F, 0.1F});
+  REQUIRE(t != nullptr);
+  CHECK(seen.pixels_off(*t, {1.2F, 0.1F}) < close_px);
 }
 
 }  // namespace touchline
