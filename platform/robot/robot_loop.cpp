@@ -99,7 +99,7 @@ bool RobotLoop::is_usable(const CameraFrame& frame, MonotonicNs time) {
   const VisionConfig& vision = pipeline_.config();
   wrong_size_ = frame.image.width != vision.frame_width || frame.image.height != vision.frame_height;
   black_ = !wrong_size_ && brightest_sample(frame.image) < config_.black_below;
-  return !wrong_size_ && !black_;
+  return !wrong_size_ && !black_ && !sensors_.attitude_missed(time);
 }
 
 Status RobotLoop::see(const CameraFrame& frame, MonotonicNs time, StageObserver* observer) {

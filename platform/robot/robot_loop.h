@@ -71,35 +71,34 @@ class RobotLoop {
   Pipeline pipeline_;
   Localizer& localizer_;
   VisionResult vision_;
-  bool configured_ = false;
   MonotonicNs last_turn_ = 0;
-  bool turned_ = false;
 
   Retry camera_retry_, panel_retry_;
-  Status camera_status_ = Status::not_ready;  // of the last open()
-  bool camera_stalled_ = false;
-  bool black_ = false;
-  bool wrong_size_ = false;
   MonotonicNs last_arrival_ = 0;  // of a frame, or of the camera's opening
   MonotonicNs last_frame_ = 0;    // time of the newest frame that was used
   MonotonicNs last_used_ = 0;     // when that was
-  bool has_frame_ = false;
-  std::uint32_t camera_corrupt_ = 0;
-
-  bool goal_yaw_known_ = false;
-  float goal_yaw_ = 0.0F;
-  bool moved_by_hand_ = false;  // since the localizer's last update
   std::uint64_t resets_ = 0;
 
   PoseEstimate estimate_;  // at `reckoned_to_`
   MonotonicNs reckoned_to_ = 0;
   PathPoint reckoned_path_;
   PathPoint localized_path_;  // at the localizer's last update
-  bool has_localized_ = false;
   CameraAttitude attitude_;
   MonotonicNs last_report_ = 0;
   std::uint64_t reports_ = 0;
   std::uint64_t frames_ = 0;
+  float goal_yaw_ = 0.0F;
+
+  Status camera_status_ = Status::not_ready;  // of the last open()
+  bool configured_ = false;
+  bool turned_ = false;
+  bool camera_stalled_ = false;
+  bool black_ = false;
+  bool wrong_size_ = false;
+  bool has_frame_ = false;
+  bool has_localized_ = false;
+  bool goal_yaw_known_ = false;
+  bool moved_by_hand_ = false;  // since the localizer's last update
 };
 
 }  // namespace touchline

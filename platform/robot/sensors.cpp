@@ -95,6 +95,10 @@ void Sensors::take(const GaitSample& sample, MonotonicNs now, EventFaults& event
   state_ = sample;
   const HeadState head{sample.has_camera_attitude, sample.has_head, sample.camera_height, sample.camera_pitch,
                        sample.camera_roll,         sample.head_pan, sample.head_tilt};
+  if (!head_.empty()) {
+    const MonotonicNs interval = sample.time - head_.newest_time();
+    head_period_ = head_period_ == 0 ? interval : head_period_ + (interval - head_period_) / 16;
+  }
   if (head_.push(sample.time, head) != Status::ok) events.note(Fault::gait_corrupt, now);
 }
 
@@ -121,6 +125,13 @@ PathPoint Sensors::path_at(MonotonicNs time) const {
     if (silent > 0) point.unknown_s += to_seconds(silent);
   }
   return point;
+}
+
+bool Sensors::attitude_missed(MonotonicNs time) const {
+  if (head_.empty() || !gait_fresh_ || !(head_.newest().has_camera || head_.newest().has_head)) return false;
+  const MonotonicNs age = time - head_.newest_time();
+  const MonotonicNs allowed = head_period_ * 5 / 2 > min_attitude_age ? head_period_ * 5 / 2 : min_attitude_age;
+  return age > allowed && age <= config_.gait_stale;
 }
 
 CameraAttitude Sensors::attitude_at(MonotonicNs time) const {

@@ -36,6 +36,9 @@ class Sensors {
   bool yaw_at(MonotonicNs time, float& yaw) const;
   [[nodiscard]] PathPoint path_at(MonotonicNs time) const;
   [[nodiscard]] CameraAttitude attitude_at(MonotonicNs time) const;
+  /// The gait link tells the camera's attitude, but has just missed some frames: a head that sways is somewhere else by
+  /// now, and a picture taken with the old attitude would mislead. False again once the link is silent for good.
+  [[nodiscard]] bool attitude_missed(MonotonicNs time) const;
 
   [[nodiscard]] bool fallen() const { return gait_fresh_ && state_.fallen; }
   [[nodiscard]] bool lifted() const { return gait_fresh_ && state_.lifted; }
@@ -56,6 +59,8 @@ class Sensors {
 
   /// More waits only after a stall, and then the rest is read in the next turn.
   static constexpr int max_reads = 256;
+  /// A humanoid's head sways with a period of half a second and more: in this time it hardly moves.
+  static constexpr MonotonicNs min_attitude_age = 40 * one_millisecond;
   static constexpr std::size_t head_capacity = 100;  // half a second of a 200 Hz link
 
   void service_imu(MonotonicNs now, EventFaults& events);
@@ -75,6 +80,7 @@ class Sensors {
 
   OdometryHistory odometry_;
   History<HeadState, head_capacity> head_;
+  MonotonicNs head_period_ = 0;  // of the link's samples, smoothed
   GaitSample state_;
   bool has_state_ = false;
   bool gait_fresh_ = false;
