@@ -41,6 +41,25 @@ hid_device* open_if(bool matches) {
 
 extern "C" {
 
+hid_device_info* hid_enumerate(unsigned short, unsigned short) {
+  static wchar_t maker[] = L"Maker";
+  static wchar_t product[] = L"IMU";
+  static hid_device_info info{};
+  auto& fake = hidapi();
+  if (!fake.present) return nullptr;
+  ++fake.open_lists;
+  info.vendor_id = fake.vendor;
+  info.product_id = fake.product;
+  info.path = fake.path.data();
+  info.serial_number = fake.serial.data();
+  info.manufacturer_string = maker;
+  info.product_string = product;
+  info.next = nullptr;
+  return &info;
+}
+void hid_free_enumeration(hid_device_info* list) {
+  if (list != nullptr) --hidapi().open_lists;
+}
 int hid_init(void) { return hidapi().fail_init ? -1 : 0; }
 hid_device* hid_open(unsigned short vendor, unsigned short product, const wchar_t* serial) {
   const auto& fake = hidapi();

@@ -21,6 +21,7 @@ struct Hidapi {
   bool fail_nonblocking = false;
 
   int open_handles = 0;
+  int open_lists = 0;                               // of hid_enumerate
   std::vector<std::vector<std::uint8_t>> features;  // that were sent
   std::deque<std::vector<std::uint8_t>> reports;
 };
