@@ -17,6 +17,7 @@ constexpr float near_widths = 0.5F;
 constexpr float branch_widths = 2.2F;
 constexpr float branch_px = 3.5F;
 constexpr float long_branch_widths = 2.5F;
+constexpr float cut_widths = 1.2F;
 constexpr float bare_widths = 0.4F;  // so much carpet beside a line ends it
 constexpr float bare_px = 2.0F;
 constexpr float flank_px = 1.5F;
@@ -27,7 +28,7 @@ constexpr float absent = 0.5F;
 constexpr float same_px = 4.0F;
 constexpr float same_widths = 1.5F;
 // A line is followed for branches when its own direction is known this well.
-constexpr float scan_sigma = radians(3.0F);
+constexpr float scan_sigma = radians(4.5F);
 constexpr float scan_px = 10.0F;    // working pixels, at least
 constexpr int scan_knot_px = 8;     // the lens is asked this often
 constexpr int max_scan_knots = 64;  // a line across the largest working image
@@ -80,11 +81,12 @@ class JunctionFinder {
   [[nodiscard]] bool reaches(const LineSegment& s, const GroundPoint& direction, const GroundPoint& at) const;
   [[nodiscard]] float metres_per_px(const GroundPoint& p, float direction) const;
   [[nodiscard]] float min_branch(const GroundPoint& p, float direction) const;
-  struct Sight {
-    float white = 0.0F;   // parts of the way: on a line, or beside one by a pixel
+  struct Sight {          // parts of the way
+    float white = 0.0F;   // on a line, or beside one by a pixel
     float middle = 0.0F;  // on a line
     float carpet = 0.0F;  // on carpet or on a line
-    bool seen = true;     // all of it lies in the picture
+    float inside = 0.0F;  // in the picture, from its beginning on
+    bool seen = true;     // all of it lies in the picture and in the region of interest
   };
   [[nodiscard]] Sight look(const GroundPoint& from, const GroundPoint& to) const;
   [[nodiscard]] bool is_long(const JunctionCandidate& c, float direction) const;
@@ -242,18 +244,21 @@ float JunctionFinder::min_branch(const GroundPoint& p, float direction) const {
 JunctionFinder::Sight JunctionFinder::look(const GroundPoint& from, const GroundPoint& to) const {
   Sight sight;
   WorkPoint a, b;
-  if (!rays_.work_point(from, 0.0F, a) || !rays_.work_point(to, 0.0F, b)) return {0.0F, 0.0F, 0.0F, false};
+  if (!rays_.work_point(from, 0.0F, a) || !rays_.work_point(to, 0.0F, b)) return {0.0F, 0.0F, 0.0F, 0.0F, false};
   const float apart = math::max(math::abs(b.u - a.u), math::abs(b.v - a.v));
   const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
-  int white = 0, middle = 0, carpet = 0;
+  int white = 0, middle = 0, carpet = 0, inside = 0;
   for (int i = 0; i <= steps; ++i) {
     const float t = static_cast<float>(i) / static_cast<float>(steps);
     const float u = a.u + t * (b.u - a.u);
     const float v = a.v + t * (b.v - a.v);
-    if (!(u >= 0.0F && v >= 0.0F)) return {0.0F, 0.0F, 0.0F, false};
     const int x = static_cast<int>(u);
     const int y = static_cast<int>(v);
-    if (x >= rays_.work_width() || y >= rays_.work_height()) return {0.0F, 0.0F, 0.0F, false};
+    if (!(u >= 0.0F && v >= 0.0F) || x >= rays_.work_width() || y >= rays_.work_height()) {
+      sight.seen = false;  // it leaves the picture: what comes after counts as nothing
+      break;
+    }
+    ++inside;
     if (field_.roi.words != nullptr && !field_.roi.get(x, y)) sight.seen = false;
     // The mask of a thin line may lie a pixel beside its middle.
     const bool line = field_.lines.get(x, y) || field_.lines.get(x - 1, y) || field_.lines.get(x + 1, y) ||
@@ -265,6 +270,7 @@ JunctionFinder::Sight JunctionFinder::look(const GroundPoint& from, const Ground
   }
   const float all = static_cast<float>(steps + 1);
   sight.white = static_cast<float>(white) / all;
+  sight.inside = static_cast<float>(inside) / all;
   sight.middle = static_cast<float>(middle) / all;
   sight.carpet = static_cast<float>(carpet) / all;
   return sight;
@@ -517,7 +523,12 @@ JunctionFinder::Way JunctionFinder::way(const JunctionCandidate& c, float direct
   const GroundPoint out{math::cos(direction), math::sin(direction)};
   const auto at = [&](float d) { return GroundPoint{c.ground.x + d * out.x, c.ground.y + d * out.y}; };
   const Sight branch = look(at(half + 0.5F * px), at(half + 0.5F * px + length));
-  if (branch.white >= present && has_flanks(c, direction, half + length)) return Way::line;
+  // A branch that the picture cuts off is one as far as it goes, when that is far enough.
+  const float seen_length = branch.inside * length;
+  const bool enough_seen = seen_length >= math::max(cut_widths * parameters_.line_width_m, branch_px * px);
+  const bool whole = branch.inside >= 1.0F;
+  if ((whole || enough_seen) && branch.white >= present * branch.inside && has_flanks(c, direction, half + length))
+    return Way::line;
   // The mask of the line across reaches a pixel or two beyond its edge.
   const float edge = 1.3F * half + 2.0F * px;
   const float enough = math::max(bare_widths * parameters_.line_width_m, bare_px * px);
