@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Cortex-M boards with no operating system, by Debian's gcc-arm-none-eabi.
 #   cmake -S . -B build/BOARD --toolchain platform/cortex_m/toolchain.cmake -DTOUCHLINE_BOARD=mps2-an500
-# A board is boards/NAME.cmake (processor), NAME.ld (memories) and NAME.cpp (what board.h leaves open).
+# A board is boards/NAME.cmake (processor, and which source counts instructions) and boards/NAME.ld (memories).
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)

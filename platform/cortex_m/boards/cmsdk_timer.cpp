@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arm MPS2, AN500. Instructions by the 32-bit CMSDK timer 0 at 25 MHz: QEMU with `-icount shift=5` lets 32 ns pass for
-// an instruction, so that a tick of 40 ns is 5/4 of one. (A board of silicon would read DWT->CYCCNT, and get cycles.)
+// Instructions on the Arm MPS2 boards, by the 32-bit CMSDK timer 0 at 25 MHz: QEMU with `-icount shift=5` lets 32 ns
+// pass for an instruction, so that a tick of 40 ns is 5/4 of one. (A board of silicon would read DWT->CYCCNT, and get
+// cycles.)
 #include <cstdint>
 
 #include "platform/cortex_m/board.h"
