@@ -61,6 +61,7 @@ TEST_CASE("camera unplugged, stalled, damaged, black, of another size: the pose 
     robot.gait.mode = TestGait::Mode::silent;  // so that the motion is not known either
     robot.run(2 * second);
     CHECK(robot.has(row.fault));
+    if (row.fault == Fault::camera_stalled) CHECK(robot.camera.health().opened > 1);  // opened anew
     CHECK_FALSE(robot.report.from_frame);
     CHECK(robot.report.estimate.valid);
     CHECK(robot.sigma() > sure);
