@@ -24,7 +24,7 @@ struct Gather {
     float sy = 0.0F;
     float st = 0.0F;
     for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] >= 0 || !near(i, about)) continue;
+      if (index[static_cast<std::size_t>(i)] != no_cluster || !near(i, about)) continue;
       const float w = math::exp(particles.log_weight[i]);
       c.mass += w;
       sx += w * (particles.x[i] - about.x);
@@ -39,10 +39,10 @@ struct Gather {
     return c;
   }
 
-  void take(Cluster& c, std::int8_t id) {
+  void take(Cluster& c, std::uint8_t id) {
     PoseCovariance s;
     for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] >= 0 || !near(i, c.mean)) continue;
+      if (index[static_cast<std::size_t>(i)] != no_cluster || !near(i, c.mean)) continue;
       index[static_cast<std::size_t>(i)] = id;
       const float w = math::exp(particles.log_weight[i]) / c.mass;
       const float dx = particles.x[i] - c.mean.x;
@@ -61,7 +61,7 @@ struct Gather {
   [[nodiscard]] int heaviest_free() const {
     int best = -1;
     for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] >= 0) continue;
+      if (index[static_cast<std::size_t>(i)] != no_cluster) continue;
       if (best < 0 || particles.log_weight[i] > particles.log_weight[best]) best = i;
     }
     return best;
@@ -69,23 +69,23 @@ struct Gather {
 };
 
 void sort_heaviest_first(ClusterList& clusters, ClusterIndex& index, int count) {
-  std::array<std::int8_t, max_clusters> order{};
-  for (std::size_t i = 0; i < clusters.size(); ++i) order[i] = static_cast<std::int8_t>(i);
+  std::array<std::uint8_t, max_clusters> order{};
+  for (std::size_t i = 0; i < clusters.size(); ++i) order[i] = static_cast<std::uint8_t>(i);
   for (std::size_t i = 1; i < clusters.size(); ++i) {
     for (std::size_t k = i; k > 0 && clusters[k - 1].mass < clusters[k].mass; --k) {
       const Cluster c = clusters[k];
       clusters[k] = clusters[k - 1];
       clusters[k - 1] = c;
-      const std::int8_t o = order[k];
+      const std::uint8_t o = order[k];
       order[k] = order[k - 1];
       order[k - 1] = o;
     }
   }
-  std::array<std::int8_t, max_clusters> rank{};
-  for (std::size_t i = 0; i < clusters.size(); ++i) rank[static_cast<std::size_t>(order[i])] = static_cast<std::int8_t>(i);
+  std::array<std::uint8_t, max_clusters> rank{};
+  for (std::size_t i = 0; i < clusters.size(); ++i) rank[order[i]] = static_cast<std::uint8_t>(i);
   for (int i = 0; i < count; ++i) {
-    std::int8_t& id = index[static_cast<std::size_t>(i)];
-    if (id >= 0) id = rank[static_cast<std::size_t>(id)];
+    std::uint8_t& id = index[static_cast<std::size_t>(i)];
+    if (id != no_cluster) id = rank[id];
   }
 }
 
@@ -93,7 +93,7 @@ void sort_heaviest_first(ClusterList& clusters, ClusterIndex& index, int count) 
 
 void find_clusters(ParticleView particles, float radius, float angle, ClusterList& clusters, ClusterIndex& index) {
   clusters.clear();
-  index.fill(-1);
+  index.fill(no_cluster);
   normalize_log_weights(particles);
   Gather gather{particles, index, radius, angle};
   float total = 0.0F;
@@ -108,7 +108,7 @@ void find_clusters(ParticleView particles, float radius, float angle, ClusterLis
       c = gather.mean_near(c.mean);
       c.mean = particles.pose(seed);
     }
-    const auto id = static_cast<std::int8_t>(clusters.size());
+    const auto id = static_cast<std::uint8_t>(clusters.size());
     if (c.mass > 0.0F) gather.take(c, id);
     index[static_cast<std::size_t>(seed)] = id;  // also when the mean has moved away: every turn takes one at least
     c.mass = total > 0.0F ? c.mass / total : 0.0F;

@@ -19,7 +19,8 @@ struct Cluster {
 
 inline constexpr std::size_t max_clusters = 24;  // a lone corner fits a dozen places of a field, and their mirror images
 using ClusterList = StaticVector<Cluster, max_clusters>;
-using ClusterIndex = std::array<std::int8_t, max_particles>;  // of each particle; -1: in none
+inline constexpr std::uint8_t no_cluster = 255;
+using ClusterIndex = std::array<std::uint8_t, max_particles>;  // of each particle
 
 /// Greedy: the heaviest particle not yet taken gathers all within `radius` metres and `angle` radians of it, and then of
 /// their mean; heaviest cluster first. Log weights are normalised as a side effect. O(particles x clusters).

@@ -98,11 +98,11 @@ float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& y
 void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
   find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
   if (candidates_.empty()) return;
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+  for (PoseCandidate& candidate : candidates_) {
     Refinement as_given;
-    as_given.pose = candidates_[i].pose;
-    candidates_[i].missing = missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
-    candidates_[i].score -= candidates_[i].missing;
+    as_given.pose = candidate.pose;
+    candidate.missing = missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
+    candidate.score -= candidate.missing;
   }
   sort_best_first(candidates_);
   const ParticleView p = particles();
@@ -184,12 +184,14 @@ void Localizer::balance_twins(const YawEvidence& yaw) {
 }
 
 Localizer::Mode* Localizer::best_mode() {
-  Mode* best = nullptr;
-  for (Mode& m : modes_) {
-    // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
-    if (best == nullptr || m.mass * (m.tracked ? 2.0F : 1.0F) > best->mass * (best->tracked ? 2.0F : 1.0F)) best = &m;
+  if (modes_.empty()) return nullptr;
+  // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
+  const auto favour = [this](std::size_t i) { return modes_[i].mass * (modes_[i].tracked ? 2.0F : 1.0F); };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < modes_.size(); ++i) {
+    if (favour(i) > favour(best)) best = i;
   }
-  return best;
+  return &modes_[best];
 }
 
 void Localizer::polish_best(const YawEvidence& yaw) {
@@ -220,13 +222,13 @@ void Localizer::share_out_mass() {
 void Localizer::sharpen_particles(const ClusterIndex& index) {
   const ParticleView p = particles();
   for (int i = 0; i < p.count; ++i) {
-    const int k = index[static_cast<std::size_t>(i)];
-    if (k < 0) {
+    const std::size_t k = index[static_cast<std::size_t>(i)];
+    if (k == no_cluster) {
       p.log_weight[i] = -20.0F;
       continue;
     }
-    const Mode& m = modes_[static_cast<std::size_t>(k)];
-    const auto count = static_cast<float>(clusters_[static_cast<std::size_t>(k)].count);
+    const Mode& m = modes_[k];
+    const auto count = static_cast<float>(clusters_[k].count);
     p.log_weight[i] = math::log(math::max(m.mass / math::max(count, 1.0F), 1e-12F));
     if (!m.refined.converged) continue;
     const Factor f = square_root(m.refined.covariance);

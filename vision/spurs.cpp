@@ -72,9 +72,7 @@ std::size_t prune_spurs(std::span<GraphNode> nodes, std::span<GraphEdge> edges, 
     const GraphEdge e = edges[i];
     if (e.point_count == 0 || e.node_a == e.node_b) continue;
     const auto edge = static_cast<std::uint16_t>(i);
-    if (e.node_b == no_node) {
-      pruner.judge(edge, e.node_a);
-    } else if (nodes[e.node_b].degree == 1) {
+    if (e.node_b == no_node || nodes[e.node_b].degree == 1) {
       pruner.judge(edge, e.node_a);
     } else if (nodes[e.node_a].degree == 1) {
       pruner.judge(edge, e.node_b);
