@@ -16,6 +16,7 @@ constexpr std::size_t stage_count = static_cast<std::size_t>(Stage::count);
 constexpr std::size_t max_frames = 64;  // 10 MB of pixels: more than any flash here has
 
 /// Instructions of each stage.
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): final, and never deleted through its base
 class StageCounter final : public StageObserver {
  public:
   [[nodiscard]] std::uint64_t of(std::size_t stage) const { return spent_[stage]; }

@@ -75,8 +75,8 @@ void Canvas::blend(int x, int y, Colour colour, float share) {
   if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
   auto* p = image_.at(x, y);
   const auto mix = [share](std::uint8_t old, std::uint8_t added) {
-    return static_cast<std::uint8_t>(static_cast<float>(old) * (1.0F - share) + static_cast<float>(added) * share +
-                                     0.5F);
+    return static_cast<std::uint8_t>(
+        std::lround(static_cast<float>(old) * (1.0F - share) + static_cast<float>(added) * share));
   };
   p[0] = mix(p[0], colour.r);
   p[1] = mix(p[1], colour.g);

@@ -124,6 +124,7 @@ const Field& Chain::field() const { return parts_->localizer.field(); }
 std::vector<Pose2> Chain::particles() {
   const ParticleView view = parts_->localizer.particles();
   std::vector<Pose2> out;
+  out.reserve(static_cast<std::size_t>(view.count));
   for (int i = 0; i < view.count; ++i) out.push_back(view.pose(i));
   return out;
 }

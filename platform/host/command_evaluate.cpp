@@ -14,7 +14,7 @@ void print_warnings(const DataSet& set, std::ostream& err) {
 
 SetResult run_set(const DataSet& set, const EvaluateOptions& options, bool json, std::ostream& out) {
   if (!json) print_table_head(out, set, options);
-  const SetResult result = evaluate(set, options, [&](const FrameRecord& record) {
+  SetResult result = evaluate(set, options, [&](const FrameRecord& record) {
     if (json) {
       out << json_line(record) << "\n" << std::flush;
     } else {
@@ -29,11 +29,13 @@ SetResult run_set(const DataSet& set, const EvaluateOptions& options, bool json,
 
 int run_evaluate(const EvaluateCommand& command, std::ostream& out, std::ostream& err) {
   std::vector<DataSet> sets;  // all are read before the first frame: a mistake shows at once
+  sets.reserve(command.folders.size());
   for (const auto& folder : command.folders) {
     sets.push_back(read_dataset(folder));
     print_warnings(sets.back(), err);
   }
   std::vector<SetResult> results;
+  results.reserve(sets.size());
   for (const auto& set : sets) results.push_back(run_set(set, command.options, command.json, out));
   if (command.json) out << json_summary(results, command.options) << "\n";
   return exit_ok;

@@ -32,7 +32,7 @@ void FieldMap::draw_field() {
                     static_cast<int>(2.0F * field_.half_carpet_length() * scale_),
                     static_cast<int>(2.0F * field_.half_carpet_width() * scale_), colours::carpet);
   const auto& d = field_.dimensions();
-  const int thickness = std::max(1, static_cast<int>(d.line_width * scale_ + 0.5F));
+  const int thickness = std::max(1, static_cast<int>(std::lround(d.line_width * scale_)));
   for (const auto& line : field_.lines()) canvas_.line(place(line.a), place(line.b), colours::white, thickness);
   canvas_.circle(place({0.0F, 0.0F}), d.circle_radius * scale_, colours::white, thickness);
   if (d.penalty_mark > 0.0F) {

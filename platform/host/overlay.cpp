@@ -151,7 +151,7 @@ void draw_features(Canvas& canvas, const GroundProjection& projection, const Fea
     const DrawPoint at{junction.pixel.u, junction.pixel.v};
     draw_branches(canvas, projection, junction, colour);
     canvas.circle(at, 6.0F, colour, 2);
-    const int percent = static_cast<int>(junction.confidence * 100.0F + 0.5F);
+    const int percent = static_cast<int>(std::lround(junction.confidence * 100.0F));
     canvas.label(static_cast<int>(at.x) + 8, static_cast<int>(at.y) - 14,
                  std::string(to_string(junction.type)) + " " + std::to_string(percent), colour);
   }

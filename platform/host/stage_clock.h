@@ -12,6 +12,7 @@ namespace touchline::host {
 inline constexpr std::size_t stage_count = static_cast<std::size_t>(Stage::count);
 using StageTimes = std::array<double, stage_count>;  // microseconds
 
+// NOLINTNEXTLINE(cppcoreguidelines-virtual-class-destructor): final, and never deleted through its base
 class StageClock final : public StageObserver {
  public:
   /// Microseconds of each stage: the mean over its runs since the last clear().

@@ -58,7 +58,8 @@ gate_accept() {
     make --no-print-directory accept DATA="$data" 2>"$checks/accept.log" || { cat "$checks/accept.log"; return 1; }
     return 0
   done
-  echo "skipped: no data sets beside the project, and TOUCHLINE_DATA names none"
+  echo "no data sets beside the project, and TOUCHLINE_DATA names none"
+  return 77
 }
 # Boards: other processors under qemu-user, and a microcontroller with no operating system. They need the host's build
 # in build/ (gate test) for its recording.
@@ -88,6 +89,7 @@ gate_vm() {
   bash tests/vm/vm.sh build >"$checks/vm.log" 2>&1 || status=$?
   [ $status = 0 ] || [ $status = 77 ] || { cat "$checks/vm.log"; return 1; }
   grep -E '^(robot:|vmtest:|skipped)' "$checks/vm.log"
+  return $status
 }
 gate_tidy() { configure clang clang clang++ && bash tests/gates/tidy.sh "$checks/clang"; }
 
