@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Augmented MCL (Probabilistic Robotics, table 8.3; paper section VI [12]): when the likelihood drops below its own long-term mean,
-// the robot may have been carried away, and new particles are drawn.
+// Augmented MCL (Probabilistic Robotics, table 8.3; paper section VI [12]): when the likelihood drops below its own
+// long-term mean, the robot may have been carried away, and new particles are drawn.
 #pragma once
 
 #include "loc/localizer_config.h"

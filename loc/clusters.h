@@ -17,13 +17,14 @@ struct Cluster {
   int count = 0;
 };
 
-inline constexpr std::size_t max_clusters = 24;  // a lone corner fits a dozen places of a field, and their mirror images
+inline constexpr std::size_t max_clusters =
+    24;  // a lone corner fits a dozen places of a field, and their mirror images
 using ClusterList = StaticVector<Cluster, max_clusters>;
 inline constexpr std::uint8_t no_cluster = 255;
 using ClusterIndex = std::array<std::uint8_t, max_particles>;  // of each particle
 
-/// Greedy: the heaviest particle not yet taken gathers all within `radius` metres and `angle` radians of it, and then of
-/// their mean; heaviest cluster first. Log weights are normalised as a side effect. O(particles x clusters).
+/// Greedy: the heaviest particle not yet taken gathers all within `radius` metres and `angle` radians of it, and then
+/// of their mean; heaviest cluster first. Log weights are normalised as a side effect. O(particles x clusters).
 void find_clusters(ParticleView particles, float radius, float angle, ClusterList& clusters, ClusterIndex& index);
 
 }  // namespace touchline

@@ -91,8 +91,7 @@ void FeatureManager::sight(FeatureType type, const GroundPoint& ground, float ba
   ++counts_.sightings;
   // Farther features are measured worse: the gate grows with the range beyond two metres.
   const float growth = math::max(1.0F, 0.5F * math::hypot(ground.x, ground.y));
-  if (pose != nullptr &&
-      nearest_of_type(field, type, to_field(*pose, ground)) > growth * config.validation_gate_m) {
+  if (pose != nullptr && nearest_of_type(field, type, to_field(*pose, ground)) > growth * config.validation_gate_m) {
     ++counts_.turned_down;
     return;
   }

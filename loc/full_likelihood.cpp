@@ -66,7 +66,8 @@ float yaw_log_likelihood(const YawEvidence& yaw, float theta) {
   return -math::min(0.5F * z2, 12.5F + 0.05F * z2);
 }
 
-float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose, float extra_sigma) {
+float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose,
+                          float extra_sigma) {
   const float c = math::cos(pose.theta);
   const float s = math::sin(pose.theta);
   float sum = 0.0F;

@@ -3,8 +3,8 @@
 // and yaw, each with the robust cost of robust.h. The full model's observation likelihood.
 #pragma once
 
-#include "loc/field.h"
 #include "loc/distance_field.h"
+#include "loc/field.h"
 #include "loc/localizer_config.h"
 #include "loc/observation.h"
 
@@ -22,7 +22,8 @@ float yaw_z2(const YawEvidence& yaw, float theta);
 
 /// Nats, <= 0, weighted sum over observation.filter_lines. `extra_sigma` (metres) widens every sample: the distance
 /// from a particle to the true pose that should still count.
-float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose, float extra_sigma);
+float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose,
+                          float extra_sigma);
 
 /// Nats, <= 0, of junctions, circle and posts, as `landmarks` allows.
 float landmark_log_likelihood(const Field& field, const Observation& observation, Landmarks landmarks,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The full model: particles carry the belief; each of their clusters is refined by Gauss-Newton on the line points, and judged
-// by what the refined pose explains and by what it says must be there and is not. Mass is shared out among the
+// The full model: particles carry the belief; each of their clusters is refined by Gauss-Newton on the line points, and
+// judged by what the refined pose explains and by what it says must be there and is not. Mass is shared out among the
 // clusters by that evidence, and particles are drawn anew about the refined poses.
 #include <algorithm>
 #include <array>
@@ -16,16 +16,16 @@ namespace {
 
 constexpr float cluster_radius_m = 0.30F;
 constexpr float cluster_angle = radians(15.0F);
-constexpr float particle_sigma = 0.10F;     // m: spacing of particles about a mode
+constexpr float particle_sigma = 0.10F;       // m: spacing of particles about a mode
 constexpr float range_for_visibility = 3.0F;  // m: beyond, worn lines are missed too often to be held against a pose
 constexpr float missing_nats_per_metre = 4.0F;
-constexpr float temper = 0.5F;              // measurements share the frame's errors: half of what independence would give
-constexpr float max_step_nats = 5.0F;       // what one frame may say at most: one bad frame must not lose the pose
-constexpr float search_share = 0.10F;       // of AMCL: from here on the frame's own candidates are looked for
-constexpr float negligible_mass = 1e-5F;    // by the particles' own weights: not worth a closer look
-constexpr float blind_decay = 0.9F;         // of confidence, with nothing in view
-constexpr float vague_sigma = 0.40F;        // m: a pose known no better than this has half the confidence
-constexpr int polish_steps = 3;             // of the best mode on all samples; the others saw the evenly thinned ones
+constexpr float temper = 0.5F;            // measurements share the frame's errors: half of what independence would give
+constexpr float max_step_nats = 5.0F;     // what one frame may say at most: one bad frame must not lose the pose
+constexpr float search_share = 0.10F;     // of AMCL: from here on the frame's own candidates are looked for
+constexpr float negligible_mass = 1e-5F;  // by the particles' own weights: not worth a closer look
+constexpr float blind_decay = 0.9F;       // of confidence, with nothing in view
+constexpr float vague_sigma = 0.40F;      // m: a pose known no better than this has half the confidence
+constexpr int polish_steps = 3;           // of the best mode on all samples; the others saw the evenly thinned ones
 
 struct Factor {  // lower-triangular square root of a 3x3 covariance
   float l00, l10, l11, l20, l21, l22;
@@ -92,16 +92,17 @@ float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& y
          yaw_log_likelihood(yaw, pose.theta);
 }
 
-/// Puts the frame's own candidates in place of every n-th particle, `share` of all: resampling keeps the order, so that a
-/// run of neighbours is one mode, and would lose it to chance. Candidates that put lines where there
-/// are none have been moved to the end: with little in view many places explain what is seen, and few what is not.
+/// Puts the frame's own candidates in place of every n-th particle, `share` of all: resampling keeps the order, so that
+/// a run of neighbours is one mode, and would lose it to chance. Candidates that put lines where there are none have
+/// been moved to the end: with little in view many places explain what is seen, and few what is not.
 void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
   find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
   if (candidates_.empty()) return;
   for (PoseCandidate& candidate : candidates_) {
     Refinement as_given;
     as_given.pose = candidate.pose;
-    candidate.missing = missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
+    candidate.missing =
+        missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
     candidate.score -= candidate.missing;
   }
   sort_best_first(candidates_);
@@ -148,10 +149,9 @@ void Localizer::refine_clusters(const VisionResult& vision, const YawEvidence& y
 void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode) {
   mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
   if (observation_.line_weight >= 1.0F) {  // else there is nothing to refine on, and the particles know best
-    const Refinement refined = refine_pose(field_, observation_.filter_lines.span(), observation_.camera,
-                                           mode.tracked ? last_.pose : cluster.mean,
-                                           refinement_prior(yaw, mode.tracked), mode.tracked ? 0.2F : 0.4F,
-                                           mode.tracked ? 5 : 8);
+    const Refinement refined = refine_pose(
+        field_, observation_.filter_lines.span(), observation_.camera, mode.tracked ? last_.pose : cluster.mean,
+        refinement_prior(yaw, mode.tracked), mode.tracked ? 0.2F : 0.4F, mode.tracked ? 5 : 8);
     if (refined.converged) {
       mode.refined = refined;
     } else {
@@ -173,7 +173,8 @@ void Localizer::balance_twins(const YawEvidence& yaw) {
     for (std::size_t k = i + 1; k < modes_.size(); ++k) {
       Mode& a = modes_[i];
       Mode& b = modes_[k];
-      if (a.negligible || b.negligible || !near(a.refined.pose, mirrored(b.refined.pose), 0.15F, radians(8.0F))) continue;
+      if (a.negligible || b.negligible || !near(a.refined.pose, mirrored(b.refined.pose), 0.15F, radians(8.0F)))
+        continue;
       const float yaw_a = yaw_log_likelihood(yaw, a.refined.pose.theta);
       const float yaw_b = yaw_log_likelihood(yaw, b.refined.pose.theta);
       const float picture = math::max(a.evidence - yaw_a, b.evidence - yaw_b);
@@ -281,8 +282,7 @@ void Localizer::report_full(PoseEstimate& estimate) {
       estimate.covariance.tt += m.mass * dt * dt;
     }
   }
-  const float quality =
-      observation_.line_weight < 1.0F ? blind_decay : math::min(1.0F, 1.5F * best->refined.explained);
+  const float quality = observation_.line_weight < 1.0F ? blind_decay : math::min(1.0F, 1.5F * best->refined.explained);
   // Along a lone line the pose is open: belief in a mode is one thing, to know where in it the robot stands another.
   const float known = 1.0F / (1.0F + largest_variance(estimate.covariance) / math::square(vague_sigma));
   belief_ = quality * (mass + estimate.mirror_confidence);

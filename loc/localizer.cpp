@@ -117,7 +117,8 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
                          StageObserver* observer) {
   if (!configured_ || frames_ < 0) return Status::not_ready;
   if (!finite(input.odometry.x) || !finite(input.odometry.y) || !finite(input.odometry.theta) ||
-      !finite(input.unknown_xy) || !finite(input.unknown_theta) || (input.has_yaw && !finite(input.yaw)) || input.time_s - input.time_s != 0.0) {
+      !finite(input.unknown_xy) || !finite(input.unknown_theta) || (input.has_yaw && !finite(input.yaw)) ||
+      input.time_s - input.time_s != 0.0) {
     return Status::invalid_argument;
   }
   if (observer != nullptr) observer->begin(Stage::localize);

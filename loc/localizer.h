@@ -6,10 +6,10 @@
 
 #include "loc/augmented_mcl.h"
 #include "loc/clusters.h"
+#include "loc/distance_field.h"
 #include "loc/feature_manager.h"
 #include "loc/field.h"
 #include "loc/full_likelihood.h"
-#include "loc/distance_field.h"
 #include "loc/localizer_config.h"
 #include "loc/observation.h"
 #include "loc/particles.h"
@@ -26,12 +26,13 @@ namespace touchline {
 
 struct LocalizerInput {
   double time_s = 0.0;
-  Pose2 odometry;        // robot's step since the update before, as the gait believes it
+  Pose2 odometry;              // robot's step since the update before, as the gait believes it
   float unknown_xy = 0.0F;     // metres, 1 sigma: motion that no odometry reports, beyond the noise of the step
   float unknown_theta = 0.0F;  // radians, likewise
   bool has_yaw = false;
-  float yaw = 0.0F;      // IMU yaw minus the stored goal yaw: theta up to noise and drift, radians
-  bool moved_by_hand = false;  // fallen or lifted since the update before: the odometry is void, the pose may be anywhere
+  float yaw = 0.0F;  // IMU yaw minus the stored goal yaw: theta up to noise and drift, radians
+  bool moved_by_hand =
+      false;  // fallen or lifted since the update before: the odometry is void, the pose may be anywhere
 };
 
 /// Owns all memory of localization. About 110 KiB, most of it the distance map and the line samples.
@@ -54,9 +55,9 @@ class Localizer {
   /// A cluster of particles, looked at closely.
   struct Mode {
     Refinement refined;
-    float evidence = 0.0F;  // nats: how well the refined pose explains the frame
-    float mass = 0.0F;      // belief, sums to 1 over the modes
-    bool tracked = false;   // continues the pose of the frame before
+    float evidence = 0.0F;    // nats: how well the refined pose explains the frame
+    float mass = 0.0F;        // belief, sums to 1 over the modes
+    bool tracked = false;     // continues the pose of the frame before
     bool negligible = false;  // not looked at closely: its particles alone are far too unlikely
   };
   using ModeList = StaticVector<Mode, max_clusters>;
@@ -97,12 +98,12 @@ class Localizer {
   FeatureManager features_{};
   AugmentedMcl augmented_{};
   YawTracker yaw_{};
-  PoseEstimate last_{};        // the pose of the frame before, moved by odometry
+  PoseEstimate last_{};  // the pose of the frame before, moved by odometry
   double last_time_s_ = 0.0;
-  int frames_ = 0;             // since the reset
-  float belief_ = 0.0F;        // in the best mode, up to the mirror: what decides whether to search
-  int cloud_ = 0;              // particles that came through the last resampling; the rest were drawn at random
-  int steady_frames_ = 0;      // in a row with a sure pose that did not move
+  int frames_ = 0;         // since the reset
+  float belief_ = 0.0F;    // in the best mode, up to the mirror: what decides whether to search
+  int cloud_ = 0;          // particles that came through the last resampling; the rest were drawn at random
+  int steady_frames_ = 0;  // in a row with a sure pose that did not move
   bool configured_ = false;
 };
 

@@ -31,20 +31,21 @@ struct Prior {
 /// Noise of one odometry step, 1 sigma (Thrun, Burgard, Fox, "Probabilistic Robotics", section 5.4, per axis).
 /// A humanoid slips: a tenth to a fifth of the way is usual on carpet.
 struct MotionNoise {
-  float xy_per_metre = 0.15F;         // m of error along and across, per metre walked
-  float xy_per_radian = 0.03F;        // m of error per radian turned
-  float theta_per_metre = 0.15F;      // rad of error per metre walked
-  float theta_per_radian = 0.15F;     // rad of error per radian turned
-  float xy_floor = 0.002F;            // m a step, also while standing: a humanoid sways
-  float theta_floor = 0.002F;         // rad a step
+  float xy_per_metre = 0.15F;      // m of error along and across, per metre walked
+  float xy_per_radian = 0.03F;     // m of error per radian turned
+  float theta_per_metre = 0.15F;   // rad of error per metre walked
+  float theta_per_radian = 0.15F;  // rad of error per radian turned
+  float xy_floor = 0.002F;         // m a step, also while standing: a humanoid sways
+  float theta_floor = 0.002F;      // rad a step
 };
 
 /// Paper section V-A and reading notes on eq. (1).
 struct FeatureManagerConfig {
-  float gamma = 50.0F;              // frames; decay constant of eq. (1)
-  float threshold = 0.3F;           // a feature with less confidence is forgotten: 60 frames after a single sighting
-  float gate_m = 0.35F;             // a sighting nearer than this to a remembered feature is the same feature
-  float validation_gate_m = 0.60F;  // with a sure pose, a feature farther than this from any landmark of its type is bogus
+  float gamma = 50.0F;     // frames; decay constant of eq. (1)
+  float threshold = 0.3F;  // a feature with less confidence is forgotten: 60 frames after a single sighting
+  float gate_m = 0.35F;    // a sighting nearer than this to a remembered feature is the same feature
+  float validation_gate_m =
+      0.60F;  // with a sure pose, a feature farther than this from any landmark of its type is bogus
   // Base likelihood per type: how often a reported feature of the type is one (X is hard to mistake, L is easy).
   float base_l = 0.7F, base_t = 0.8F, base_x = 0.9F, base_post = 0.8F;
   float axis_half_angle = radians(60.0F);  // angle from the optical axis at which confidence has halved
@@ -66,13 +67,13 @@ struct LocalizerConfig {
   FeatureManagerConfig features;
   AugmentedMclConfig augmented;
 
-  float yaw_sigma = radians(3.0F);          // rad, IMU yaw noise with its drift taken out
-  float yaw_drift_rate = radians(0.1F);     // rad / sqrt(s): how fast the drift may walk
-  float tilt_sigma = radians(0.5F);         // rad, error of the given pitch and roll, each
-  float landmark_variance_floor = 0.05F;    // m^2, floor of sigma_l^2 in eq. (5), which shrinks as the cloud does
-  float line_sigma_floor = 0.012F;          // m: paint, carpet and calibration are no better
+  float yaw_sigma = radians(3.0F);        // rad, IMU yaw noise with its drift taken out
+  float yaw_drift_rate = radians(0.1F);   // rad / sqrt(s): how fast the drift may walk
+  float tilt_sigma = radians(0.5F);       // rad, error of the given pitch and roll, each
+  float landmark_variance_floor = 0.05F;  // m^2, floor of sigma_l^2 in eq. (5), which shrinks as the cloud does
+  float line_sigma_floor = 0.012F;        // m: paint, carpet and calibration are no better
 
-  float confident = 0.80F;                  // confidence from which a pose counts as sure
+  float confident = 0.80F;  // confidence from which a pose counts as sure
 };
 
 }  // namespace touchline

@@ -9,7 +9,8 @@ StepSigma step_sigma(const Pose2& step, const MotionNoise& noise) {
   const float way = math::hypot(step.x, step.y);
   const float turn = math::abs(step.theta);
   const float along = math::abs(step.x) * noise.xy_per_metre + turn * noise.xy_per_radian + noise.xy_floor;
-  // A side step slips more than a step ahead, and a step ahead drifts sideways too: both axes share half of the other's way.
+  // A side step slips more than a step ahead, and a step ahead drifts sideways too: both axes share half of the other's
+  // way.
   const float across = math::abs(step.y) * noise.xy_per_metre + turn * noise.xy_per_radian + noise.xy_floor;
   const float shared = 0.5F * noise.xy_per_metre;
   return {along + shared * math::abs(step.y), across + shared * math::abs(step.x),

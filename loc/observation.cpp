@@ -6,9 +6,9 @@
 namespace touchline {
 namespace {
 
-/// A point whose range is known to this (metres, 1 sigma of tilt) counts half; for a camera at 0.6 m that is 2.6 m away.
-/// What lies farther is more often no line at all: a stripe on a board stands above the ground, and its points come out
-/// far away and far apart.
+/// A point whose range is known to this (metres, 1 sigma of tilt) counts half; for a camera at 0.6 m that is 2.6 m
+/// away. What lies farther is more often no line at all: a stripe on a board stands above the ground, and its points
+/// come out far away and far apart.
 constexpr float telling_sigma = 0.10F;
 
 /// Metres across the line that one sigma of pitch and of roll make at this point: ground = -h r_xy / r_z, so a tilt
@@ -33,7 +33,8 @@ LineSample make_sample(const LinePoint& p, const CameraPose& camera, const Local
   s.sigma = math::hypot(p.sigma, config.line_sigma_floor);
   s.sigma_tilt = tilt_across(p.ground, camera, s.dir_x, s.dir_y, config.tilt_sigma);
   const float h = camera.height;
-  const float spread = config.tilt_sigma * (h * h + math::square(p.ground.x - camera.x) + math::square(p.ground.y - camera.y)) /
+  const float spread = config.tilt_sigma *
+                       (h * h + math::square(p.ground.x - camera.x) + math::square(p.ground.y - camera.y)) /
                        (h * telling_sigma);
   s.weight = math::min(1.0F, p.length / metres_per_measurement) / (1.0F + spread * spread);
   return s;

@@ -10,9 +10,10 @@
 
 namespace touchline {
 
-/// Adds the log of eq. (5) to every particle's log weight. `cloud` is how many particles, from the first, make up the cloud
-/// whose variance counts: those drawn at random in the frame before are spread over the whole field. `range_only` compares distances in place of displacements:
-/// then the heading does not enter, and the field's mirror image in y fits as well; kept as a variant to report.
+/// Adds the log of eq. (5) to every particle's log weight. `cloud` is how many particles, from the first, make up the
+/// cloud whose variance counts: those drawn at random in the frame before are spread over the whole field. `range_only`
+/// compares distances in place of displacements: then the heading does not enter, and the field's mirror image in y
+/// fits as well; kept as a variant to report.
 void add_paper_likelihood(const Field& field, const FeatureManager& features, const FeatureManagerConfig& config,
                           float variance_floor, int cloud, bool range_only, ParticleView particles);
 

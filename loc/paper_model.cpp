@@ -12,7 +12,8 @@ namespace {
 constexpr float cluster_radius_m = 0.5F;
 constexpr float cluster_angle = radians(30.0F);
 
-constexpr float random_share = 0.1F;  // 200 particles are too thin for the field: only a steady rain finds what the first cloud missed
+constexpr float random_share =
+    0.1F;  // 200 particles are too thin for the field: only a steady rain finds what the first cloud missed
 constexpr float roughening = 0.1F;  // between the 0.2 of its authors and what a cloud of 200 needs to close in
 
 float average_weight(ParticleView p) {
@@ -35,7 +36,8 @@ void Localizer::update_paper(const VisionResult& /*vision*/, const YawEvidence& 
   find_clusters(p, cluster_radius_m, cluster_angle, clusters_, cluster_index_);
   estimate = {};
   bool anything_seen = false;
-  for (int t = 0; t < feature_types; ++t) anything_seen = anything_seen || !features_.list(static_cast<FeatureType>(t)).empty();
+  for (int t = 0; t < feature_types; ++t)
+    anything_seen = anything_seen || !features_.list(static_cast<FeatureType>(t)).empty();
   if (!clusters_.empty() && (anything_seen || last_.valid)) {
     const Cluster& best = clusters_[0];
     estimate.valid = true;

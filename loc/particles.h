@@ -13,7 +13,7 @@ namespace touchline {
 
 /// `count` poses with log weights, in somebody else's memory.
 struct ParticleView {
-  float* x = nullptr;           // metres, field frame
+  float* x = nullptr;  // metres, field frame
   float* y = nullptr;
   float* theta = nullptr;       // radians, (-pi, pi]
   float* log_weight = nullptr;  // natural log, not normalised

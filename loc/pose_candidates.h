@@ -12,7 +12,7 @@ namespace touchline {
 enum class CandidateSource : std::uint8_t { junction, circle, grid };
 struct PoseCandidate {
   Pose2 pose;
-  float score = 0.0F;  // nats, <= 0: coarse likelihood
+  float score = 0.0F;    // nats, <= 0: coarse likelihood
   float missing = 0.0F;  // nats that lines missing from the picture cost; the caller's to fill
   CandidateSource source = CandidateSource::grid;
 };

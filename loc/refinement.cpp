@@ -94,7 +94,7 @@ Sums linearise(const Field& field, std::span<const LineSample> samples, const Ca
     const float rx = c * nx + sn * ny;  // normal in the robot's frame
     const float ry = -sn * nx + c * ny;
     const PoseVector j = {nx, ny, nx * (-sn * g.x - c * g.y) + ny * (c * g.x - sn * g.y),
-                               rx * g.x_pitch + ry * g.y_pitch, rx * g.x_roll + ry * g.y_roll};
+                          rx * g.x_pitch + ry * g.y_pitch, rx * g.x_roll + ry * g.y_roll};
     sums.normal.add(j, line.distance, w);
   }
   return sums;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cholesky's decomposition of a handful of unknowns on Eigen's fixed-size matrices. Eigen's own LLT and LDLT bring their
-// blocked paths along, which allocate, for matrices that are never that large; so the decomposition stands here
+// Cholesky's decomposition of a handful of unknowns on Eigen's fixed-size matrices. Eigen's own LLT and LDLT bring
+// their blocked paths along, which allocate, for matrices that are never that large; so the decomposition stands here
 // (Golub and Van Loan, "Matrix Computations", algorithm 4.2.1), and every sum has its order.
 #include "loc/small_solver.h"
 

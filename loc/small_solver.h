@@ -4,7 +4,6 @@
 
 #include "loc/pose_estimate.h"
 
-
 namespace touchline {
 
 inline constexpr int pose_unknowns = 5;  // x, y, theta, pitch error, roll error

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All of touchline's core in one header: vision from the camera's frame to features, localization from features to pose.
+// All of touchline's core in one header: vision from the camera's frame to features, localization from features to
+// pose.
 #pragma once
 
 #include "loc/localizer.h"

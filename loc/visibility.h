@@ -15,7 +15,6 @@ struct Visibility {
 };
 
 /// Samples the field's lines every 0.15 m within `max_range` of the robot and projects them with the refined attitude.
-Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
-                            float max_range);
+Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined, float max_range);
 
 }  // namespace touchline

@@ -59,7 +59,7 @@ struct FieldView {
   ConstBitView lines;
   ConstBitView green;
   ConstBitView carpet;  // the carpet's colour, pixel by pixel
-  ConstBitView roi;  // may be empty (words == nullptr): the whole picture
+  ConstBitView roi;     // may be empty (words == nullptr): the whole picture
 };
 
 /// `edge_done` has one entry an edge of the graph. Segments and points without room are counted in their dropped().

@@ -10,8 +10,8 @@
 #include "vision/image/bit_ops.h"
 #include "vision/image/contour.h"
 #include "vision/image/grow.h"
-#include "vision/image/hull.h"
 #include "vision/image/hsv.h"
+#include "vision/image/hull.h"
 #include "vision/image/morphology.h"
 #include "vision/line_mask.h"
 #include "vision/line_points.h"
@@ -310,9 +310,9 @@ void Pipeline::find_post_colour(const VisionResult& result) {
 void Pipeline::find_goal_posts(VisionResult& result) {
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
-  result.counts.dropped_posts =
-      find_posts(views_.mask(MaskId::post_colour), rays, {result.line_mask, result.green, views_.mask(MaskId::green), result.roi}, {config_.post_diameter_m, config_.max_range_m},
-                 memory_.feature_work->posts, memory_.features->posts);
+  result.counts.dropped_posts = find_posts(
+      views_.mask(MaskId::post_colour), rays, {result.line_mask, result.green, views_.mask(MaskId::green), result.roi},
+      {config_.post_diameter_m, config_.max_range_m}, memory_.feature_work->posts, memory_.features->posts);
 }
 
 void Pipeline::make_line_points(VisionResult& result) {

@@ -19,7 +19,7 @@ using MaskPolygon = StaticVector<PixelPoint, max_mask_polygon_points>;
 struct VisionConfig {
   int frame_width = 752;  // camera pixels; the paper's camera
   int frame_height = 480;
-  int work_width = 320;    // working pixels; up to the storage's size
+  int work_width = 320;  // working pixels; up to the storage's size
   int work_height = 240;
   int fifo_depth = 4;  // frames in the mean, 1..8 (paper section IV-A; the storage may allow fewer)
 
@@ -31,7 +31,7 @@ struct VisionConfig {
   int line_dilate_px = 3;   // joins both edges of a line
   int line_erode_px = 3;
 
-  float line_width_m = 0.05F;  // of the field
+  float line_width_m = 0.05F;     // of the field
   float circle_radius_m = 0.75F;  // of the field; 0: none
   float post_diameter_m = 0.10F;
   bool white_posts = false;  // search white posts in place of yellow ones

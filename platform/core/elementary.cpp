@@ -51,14 +51,10 @@ SinCos sin_cos(float radians) {
   const float s = sin_polynomial(r);
   const float c = cos_polynomial(r);
   switch (static_cast<std::uint32_t>(quadrant) & 3U) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
   }
 }
 

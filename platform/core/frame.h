@@ -15,7 +15,7 @@ enum class PixelFormat : std::uint8_t {
   yuyv,    // Y0 Cb Y1 Cr, 4:2:2, limited range BT.601 (16..235), as cameras send it; width must be even
 };
 
-inline constexpr int max_frame_width = 1280;   // the largest camera of the data sets
+inline constexpr int max_frame_width = 1280;  // the largest camera of the data sets
 inline constexpr int max_frame_height = 1024;
 
 constexpr int bytes_per_pixel(PixelFormat f) { return f == PixelFormat::rgb24 || f == PixelFormat::bgr24 ? 3 : 2; }

@@ -48,7 +48,8 @@ Text& Text::add_decimal(float value, int decimals) {
   }
   std::uint64_t scale = 1;
   for (int i = 0; i < decimals; ++i) scale *= 10U;
-  const std::uint64_t scaled = (static_cast<std::uint64_t>(2.0F * value * static_cast<float>(scale)) + 1U) / 2U;  // rounded
+  const std::uint64_t scaled =
+      (static_cast<std::uint64_t>(2.0F * value * static_cast<float>(scale)) + 1U) / 2U;  // rounded
   add(scaled / scale);
   if (decimals == 0) return *this;
   put('.');

@@ -154,7 +154,8 @@ void add_robot(CLI::App& app, Commands& commands) {
   auto* check = app.add_subcommand("check", "says what is wrong with the robot's TOML file; opens no device");
   check->add_option("FILE", command.file, "the robot's TOML file")->required();
   check->footer(std::string("Example: touchline check /etc/touchline/robot.toml") + exit_text);
-  auto* devices = app.add_subcommand("devices", "cameras, HID devices, serial ports and GPIO chips that are plugged in");
+  auto* devices =
+      app.add_subcommand("devices", "cameras, HID devices, serial ports and GPIO chips that are plugged in");
   devices->footer(std::string("Example: touchline devices") + exit_text);
 }
 

@@ -116,7 +116,8 @@ TEST_CASE("the base likelihood falls with the distance from the polar axis") {
 
 TEST_CASE("a full list counts what it drops") {
   Fixture f;
-  for (int i = 0; i < 32; ++i) f.see(JunctionType::l, {0.4F + 0.1F * static_cast<float>(i % 8), static_cast<float>(i / 8) - 2.0F});
+  for (int i = 0; i < 32; ++i)
+    f.see(JunctionType::l, {0.4F + 0.1F * static_cast<float>(i % 8), static_cast<float>(i / 8) - 2.0F});
   f.config.gate_m = 0.01F;
   f.frame();
   for (Junction& j : f.features->junctions.span()) j.ground.y += 0.05F;

@@ -13,13 +13,13 @@
 namespace touchline::test {
 
 struct SyntheticOptions {
-  float max_range = 4.0F;       // metres
-  float pixel_noise = 0.0F;     // camera pixels, 1 sigma
-  float pitch_error = 0.0F;     // radians: true pitch minus the pitch that loc is told
+  float max_range = 4.0F;    // metres
+  float pixel_noise = 0.0F;  // camera pixels, 1 sigma
+  float pitch_error = 0.0F;  // radians: true pitch minus the pitch that loc is told
   float roll_error = 0.0F;
   bool junctions = true;
   bool lines = true;
-  bool covered = false;         // a hand before the lens: nothing is seen, no carpet either
+  bool covered = false;  // a hand before the lens: nothing is seen, no carpet either
 };
 
 /// Owns what the VisionResult refers to.

@@ -69,13 +69,15 @@ Seen::Seen(const Scene& scene, float circle_radius)
   const DigestionResult digested = digest(index, {5, 1, 10, 100}, memory.digestion);
   graph = build_node_graph(index, digested.major_nodes, {}, {6}, memory.graph);
   std::vector<std::uint8_t> done(graph.graph.edges.size());
-  find_line_segments(graph.graph, *rays, {mask.view(), carpet.view(), carpet.view(), {}}, {scene.line_width, 6.0F}, done, *lines);
+  find_line_segments(graph.graph, *rays, {mask.view(), carpet.view(), carpet.view(), {}}, {scene.line_width, 6.0F},
+                     done, *lines);
   if (circle_radius > 0.0F) {
     features->has_circle = find_circle(*lines, *rays, {circle_radius, scene.line_width}, circle_work, features->circle);
   }
   const SeenCircle seen{features->circle, circle_work.seen, circle_radius};
-  (void)find_junctions(*lines, features->has_circle ? &seen : nullptr, *rays, {mask.view(), carpet.view(), carpet.view(), {}},
-                       {scene.line_width, 6.0F}, *junction_work, *features);
+  (void)find_junctions(*lines, features->has_circle ? &seen : nullptr, *rays,
+                       {mask.view(), carpet.view(), carpet.view(), {}}, {scene.line_width, 6.0F}, *junction_work,
+                       *features);
 }
 
 int Seen::count(JunctionType type) const {

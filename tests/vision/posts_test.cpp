@@ -45,8 +45,8 @@ struct Found {
 
 Found find(const Seen& seen, const Bits& colour, const Bits& carpet) {
   Found found;
-  (void)find_posts(colour.view(), *seen.rays, {seen.mask.view(), carpet.view(), carpet.view(), {}}, {0.10F, 6.0F}, found.work,
-                   found.posts);
+  (void)find_posts(colour.view(), *seen.rays, {seen.mask.view(), carpet.view(), carpet.view(), {}}, {0.10F, 6.0F},
+                   found.work, found.posts);
   return found;
 }
 

@@ -39,36 +39,24 @@ bool is_identity(const std::array<float, 8>& b) {
 
 float model_theta(const LensParameters& lens, float radius) {
   switch (lens.model) {
-    case LensModel::equidistant:
-      return equidistant::theta_from_radius(lens, radius);
-    case LensModel::equisolid:
-      return equisolid::theta_from_radius(lens, radius);
-    case LensModel::rectilinear:
-      return rectilinear::theta_from_radius(lens, radius);
-    case LensModel::kannala_brandt:
-      return kannala_brandt::theta_from_radius(lens, radius);
-    case LensModel::barrel:
-      return barrel::theta_from_radius(lens, radius);
-    case LensModel::polynomial:
-      return polynomial::theta_from_radius(lens, radius);
+    case LensModel::equidistant: return equidistant::theta_from_radius(lens, radius);
+    case LensModel::equisolid: return equisolid::theta_from_radius(lens, radius);
+    case LensModel::rectilinear: return rectilinear::theta_from_radius(lens, radius);
+    case LensModel::kannala_brandt: return kannala_brandt::theta_from_radius(lens, radius);
+    case LensModel::barrel: return barrel::theta_from_radius(lens, radius);
+    case LensModel::polynomial: return polynomial::theta_from_radius(lens, radius);
   }
   return 0.0F;
 }
 
 float model_radius(const LensParameters& lens, float theta, float max_radius) {
   switch (lens.model) {
-    case LensModel::equidistant:
-      return equidistant::radius_from_theta(lens, theta);
-    case LensModel::equisolid:
-      return equisolid::radius_from_theta(lens, theta);
-    case LensModel::rectilinear:
-      return rectilinear::radius_from_theta(lens, theta);
-    case LensModel::kannala_brandt:
-      return kannala_brandt::radius_from_theta(lens, theta);
-    case LensModel::barrel:
-      return barrel::radius_from_theta(lens, theta);
-    case LensModel::polynomial:
-      return polynomial::radius_from_theta(lens, theta, max_radius);
+    case LensModel::equidistant: return equidistant::radius_from_theta(lens, theta);
+    case LensModel::equisolid: return equisolid::radius_from_theta(lens, theta);
+    case LensModel::rectilinear: return rectilinear::radius_from_theta(lens, theta);
+    case LensModel::kannala_brandt: return kannala_brandt::radius_from_theta(lens, theta);
+    case LensModel::barrel: return barrel::radius_from_theta(lens, theta);
+    case LensModel::polynomial: return polynomial::radius_from_theta(lens, theta, max_radius);
   }
   return 0.0F;
 }
