@@ -165,6 +165,7 @@ class Demo {
   std::vector<Pose2> particles() {
     std::vector<Pose2> out;
     const ParticleView view = localizer_.particles();
+    out.reserve(static_cast<std::size_t>(view.count));
     for (int i = 0; i < view.count; ++i) out.push_back(view.pose(i));
     return out;
   }

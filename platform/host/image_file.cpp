@@ -116,6 +116,7 @@ bool encode_jpeg(const RgbImage& image, int quality, JpegErrors& errors, unsigne
   jpeg_set_quality(&info, quality, TRUE);
   jpeg_start_compress(&info, TRUE);
   while (info.next_scanline < info.image_height) {
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): libjpeg's type; it only reads
     JSAMPROW row = const_cast<std::uint8_t*>(image.at(0, static_cast<int>(info.next_scanline)));
     (void)jpeg_write_scanlines(&info, &row, 1);
   }
