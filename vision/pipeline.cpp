@@ -54,6 +54,7 @@ Status refuse(const char** what, const char* key) {
 bool odd_kernel(int side) { return side >= 1 && side <= 31 && side % 2 == 1; }
 
 Status check(const VisionConfig& c, const char** what) {
+  if (c.kernels.find_ridges == nullptr) return refuse(what, "kernels");
   if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
   if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
   if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");
@@ -81,7 +82,7 @@ Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const c
   PipelineViews views;
   if (!make_views(memory_, config.work_width, config.work_height, views)) return refuse(what, "work_width");
   const Status status =
-      subsampler_.configure(config.frame_width, config.frame_height, config.work_width, config.work_height);
+      subsampler_.configure(config.frame_width, config.frame_height, config.work_width, config.work_height, config.kernels);
   if (status != Status::ok) {
     (void)refuse(what, "frame_width");
     return status;
@@ -222,7 +223,7 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& roi = views_.mask(MaskId::roi);
   and_with(candidates, roi);
   find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates,
-                    views_.mask(MaskId::scratch));
+                    views_.mask(MaskId::scratch), config_.kernels);
   const BitView& edges = views_.mask(MaskId::edges);
   const GrowResult grown =
       find_edges(result.mean.y, roi, edge_thresholds(carpet_), memory_.canny, views_.mask(MaskId::scratch), edges);

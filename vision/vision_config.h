@@ -9,6 +9,7 @@
 #include "platform/core/geometry.h"
 #include "platform/core/static_vector.h"
 #include "vision/image/hsv.h"
+#include "vision/image/kernels.h"
 
 namespace touchline {
 
@@ -22,6 +23,9 @@ struct VisionConfig {
   int work_width = 320;  // working pixels; up to the storage's size
   int work_height = 240;
   int fifo_depth = 4;  // frames in the mean, 1..8 (paper section IV-A; the storage may allow fewer)
+
+  /// Wider vectors where the processor has them (fastest_kernels() of platform/processor); the result is the same.
+  Kernels kernels = portable_kernels();
 
   HsvRange green{28, 95, 40, 255, 12, 255};  // a wide gate: each frame finds its own range inside
   HsvRange yellow_post{18, 34, 110, 255, 60, 255};

@@ -11,6 +11,7 @@
 #include "vision/image/bit_image.h"
 #include "vision/image/grow.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 #include "vision/line_width_table.h"
 
 namespace touchline {
@@ -35,6 +36,7 @@ SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, Co
 /// size of `lines` and holds all weak ridges afterwards. The result tells whether the growing ended within its bound.
 inline constexpr int max_ridge_px = 8;
 GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
-                             const CarpetModel& carpet, BitView lines, BitView scratch);
+                             const CarpetModel& carpet, BitView lines, BitView scratch,
+                             const Kernels& kernels = portable_kernels());
 
 }  // namespace touchline

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "platform/host/host_error.h"
+#include "platform/processor/fastest_kernels.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"
 
@@ -93,6 +94,7 @@ const VisionResult& Chain::see(const FrameView& image, double time_s, const Came
     config.work_height = parts_->options.work_height;
     config.fifo_depth = fifo_depth;
     tell_vision(field().dimensions(), config);
+    config.kernels = fastest_kernels();
     Lens lens;
     Status status = Lens::create(camera.lens, lens, &what);
     if (status != Status::ok) refused(what, "the lens", status);

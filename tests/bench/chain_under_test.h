@@ -7,6 +7,7 @@
 #include <string>
 
 #include "loc/localizer.h"
+#include "platform/processor/fastest_kernels.h"
 #include "tests/bench/bench_frames.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"
@@ -35,6 +36,7 @@ struct ChainUnderTest {
     config.line_width_m = pool.field.line_width;
     config.circle_radius_m = pool.field.circle_radius;
     config.post_diameter_m = pool.field.post_diameter;
+    config.kernels = fastest_kernels();
     Lens lens;
     require(Lens::create(pool.lens, lens), "lens");
     require(pipeline.configure(config, lens), "pipeline");

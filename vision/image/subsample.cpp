@@ -169,13 +169,19 @@ int most_taps(const AreaAxis& axis) {
   return taps;
 }
 
+int most_weight(const AreaAxis& axis) {
+  int most = 0;
+  for (int x = 0; x < axis.target; ++x) for_each_tap(axis, x, [&](int, int weight) { most = std::max(most, weight); });
+  return most;
+}
+
 bool has_size(const ImageView<std::uint8_t>& image, int width, int height) {
   return image.data != nullptr && image.width == width && image.height == height && image.stride >= width;
 }
 
 }  // namespace
 
-Status Subsampler::configure(int frame_width, int frame_height, int work_width, int work_height) {
+Status Subsampler::configure(int frame_width, int frame_height, int work_width, int work_height, const Kernels& kernels) {
   if (work_width < 1 || work_height < 1 || frame_width < work_width || frame_height < work_height) {
     return Status::invalid_argument;
   }
@@ -206,6 +212,8 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
                      static_cast<std::size_t>(period * taps_ * pixel_lanes) <= memory_.weights.size();
   period_ = pairs ? period : 0;
   set_weights();
+  kernels_ = fits_kernels(kernels) ? kernels : Kernels{};
+  if (kernels_.halve_rows != nullptr) set_kernel_weights();
   configured_ = true;
   return Status::ok;
 }
@@ -229,6 +237,54 @@ void Subsampler::set_weights() {
         std::fill_n(memory_.weights.begin() + lane, 3, static_cast<std::uint16_t>(weight));
       }
     });
+  }
+}
+
+namespace {
+constexpr int kernel_taps = 4;
+constexpr int kernel_bytes = 16;  // of weights a working column
+/// The weights of the kernels lie behind those of the pairs.
+std::size_t pair_weights(int period, int taps) { return static_cast<std::size_t>(period * taps * pixel_lanes); }
+}  // namespace
+
+bool Subsampler::fits_kernels(const Kernels& kernels) const {
+  return kernels.halve_rows != nullptr && period_ != 0 && period_ % 4 == 0 && taps_ <= kernel_taps &&
+         horizontal_.target % 8 == 0 && vertical_.target % 2 == 0 && vertical_.source == 2 * vertical_.target &&
+         vertical_.cell == 2 && 2 * horizontal_.cell <= max_exact_cells && horizontal_.source <= 4 * horizontal_.target &&
+         most_weight(horizontal_) < 128 &&
+         pair_weights(period_, taps_) + static_cast<std::size_t>(period_ * kernel_bytes / 2) <= memory_.weights.size();
+}
+
+void Subsampler::set_kernel_weights() {
+  auto* bytes = reinterpret_cast<std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
+  std::fill_n(bytes, period_ * kernel_bytes, std::int8_t{0});
+  for (int x = 0; x < std::min(period_, horizontal_.target); ++x) {
+    const int first = memory_.first_column[static_cast<std::size_t>(x)];
+    for_each_tap(horizontal_, x, [&](int i, int weight) {
+      const int tap = i - first;
+      for (int c = 0; c < 3; ++c) {
+        bytes[kernel_bytes * x + tap / 2 * (kernel_bytes / 2) + 2 * c + tap % 2] = static_cast<std::int8_t>(weight);
+      }
+    });
+  }
+}
+
+void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) const {
+  HalvedRows rows;
+  rows.source_bytes = 3 * frame.width;
+  rows.first_column = memory_.first_column.data();
+  rows.weights = reinterpret_cast<const std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
+  rows.columns = horizontal_.target;
+  rows.period = period_;
+  rows.scale = scale_;
+  rows.matrix = colour_matrix(frame.format);
+  for (int y = 0; y < vertical_.target; y += 2) {
+    for (int k = 0; k < 4; ++k) rows.source[k] = unpack_row(frame, 2 * y + k, nullptr);
+    rows.y[0] = out.y.row(y);
+    rows.y[1] = out.y.row(y + 1);
+    rows.cb = out.cb.row(y / 2);
+    rows.cr = out.cr.row(y / 2);
+    kernels_.halve_rows(rows);
   }
 }
 
@@ -282,6 +338,10 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
 
   if (frame.format == PixelFormat::yuyv && frame.width == width && frame.height == height && height % 2 == 0) {
     stretch_yuyv(frame, out);
+    return Status::ok;
+  }
+  if (kernels_.halve_rows != nullptr && needs_no_unpacking(frame.format)) {
+    run_kernels(frame, out);
     return Status::ok;
   }
   const ColourMatrix matrix = colour_matrix(frame.format);

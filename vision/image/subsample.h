@@ -9,6 +9,7 @@
 #include "platform/core/status.h"
 #include "vision/image/frame.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 
 namespace touchline {
 
@@ -64,8 +65,9 @@ class Subsampler {
   explicit Subsampler(const SubsampleMemory& memory) : memory_(memory) {}
 
   /// invalid_argument: a size below 1, a frame larger than max_frame_width x max_frame_height or smaller than the
-  /// working image. capacity: the memory is for smaller images. The old configuration then stays.
-  Status configure(int frame_width, int frame_height, int work_width, int work_height);
+  /// working image. capacity: the memory is for smaller images. The old configuration then stays. `kernels` are
+  /// used where they fit the sizes; they do not change the result.
+  Status configure(int frame_width, int frame_height, int work_width, int work_height, const Kernels& kernels = portable_kernels());
 
   /// not_ready: not configured. wrong_size: `frame` or `out` has another size than configured. invalid_argument: no
   /// data, a stride that is too short, or YUYV of odd width. In all these cases `out` is as it was.
@@ -77,6 +79,9 @@ class Subsampler {
     std::uint16_t* channel[3] = {};
   };
   void set_weights();
+  void set_kernel_weights();
+  [[nodiscard]] bool fits_kernels(const Kernels& kernels) const;
+  void run_kernels(const FrameView& frame, const Yuv420View& out) const;
   [[nodiscard]] Channels work_row(int index) const;
   void make_work_row(const FrameView& frame, int y, const Channels& out);
 
@@ -86,6 +91,7 @@ class Subsampler {
   int taps_ = 0;    // most source columns that a working column needs
   int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
   std::uint16_t scale_ = 0;  // from sums to 8.6 bit, in 1/65536
+  Kernels kernels_;  // where they are used
   bool wide_ = false;        // sums need 32 bit: the weights are rounded
   bool configured_ = false;
 };

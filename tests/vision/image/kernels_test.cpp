@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every table of kernels that this processor runs gives what the portable code gives, byte for byte.
+#include "vision/image/kernels.h"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "platform/core/rng.h"
+#include "platform/processor/fastest_kernels.h"
+#include "vision/image/frame_fifo.h"
+#include "vision/image/subsample.h"
+
+namespace touchline {
+namespace {
+
+std::vector<std::uint8_t> noise(std::size_t bytes, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<std::uint8_t> out(bytes);
+  for (std::uint8_t& byte : out) {
+    const std::uint32_t bits = rng.next_u32();
+    byte = (bits & 0x300U) == 0 ? 255 : (bits & 0x300U) == 0x100U ? 0 : static_cast<std::uint8_t>(bits);
+  }
+  return out;
+}
+
+struct Result {
+  std::vector<std::uint8_t> y, cb, cr;
+  bool operator==(const Result&) const = default;
+};
+
+Result subsampled(const FrameView& frame, int width, int height, const Kernels& kernels) {
+  auto storage = std::make_unique<SubsampleStorage<1280, 640>>();
+  Subsampler subsampler(storage->memory());
+  REQUIRE(subsampler.configure(frame.width, frame.height, width, height, kernels) == Status::ok);
+  const auto luma = static_cast<std::size_t>(width * height);
+  Result r{std::vector<std::uint8_t>(luma), std::vector<std::uint8_t>(luma / 4), std::vector<std::uint8_t>(luma / 4)};
+  const Yuv420View view{{r.y.data(), width, height, width},
+                        {r.cb.data(), width / 2, height / 2, width / 2},
+                        {r.cr.data(), width / 2, height / 2, width / 2}};
+  REQUIRE(subsampler.run(frame, view) == Status::ok);
+  return r;
+}
+
+TEST_CASE("kernels subsample as the portable code does") {
+  const Kernels kernels = fastest_kernels();
+  if (std::string_view(kernels.name) == "portable") {
+    MESSAGE("skipped: this processor runs the portable code alone");
+    return;
+  }
+  struct Size {
+    int width, height, work_width, work_height;
+  };
+  for (const Size& s : {Size{752, 480, 320, 240},
+                        {640, 480, 320, 240},
+                        {320, 480, 320, 240},
+                        {376, 480, 160, 240},
+                        {1280, 480, 320, 240},
+                        {1128, 960, 480, 480},
+                        {640, 480, 200, 240},
+                        {1280, 960, 640, 480}}) {
+    for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24}) {
+      const auto pixels = noise(static_cast<std::size_t>(s.width * s.height * 3), 4);
+      const FrameView frame{format, pixels.data(), s.width, s.height, s.width * 3};
+      CAPTURE(s.width);
+      CAPTURE(s.work_width);
+      CHECK(subsampled(frame, s.work_width, s.work_height, kernels) ==
+            subsampled(frame, s.work_width, s.work_height, portable_kernels()));
+    }
+  }
+}
+
+/// Ridges by their definition, pixel by pixel.
+bool stands_out(const std::vector<std::uint8_t>& luma, int width, int x, int y, int dx, int dy, int margin) {
+  const auto sum = [&](int cx, int cy) {
+    const auto at = [&](int px, int py) { return int{luma[static_cast<std::size_t>(py * width + px)]}; };
+    const int bx = dx != 0 ? 0 : 1;
+    const int by = dx != 0 ? 1 : 0;
+    return at(cx - bx, cy - by) + 2 * at(cx, cy) + at(cx + bx, cy + by);
+  };
+  const int side = std::max(sum(x - dx, y - dy), sum(x + dx, y + dy));
+  return sum(x, y) > side + side / 16 + margin;
+}
+
+void check_ridges(const Kernels& kernels) {
+  constexpr int width = 48;
+  constexpr int height = 40;
+  const auto luma = noise(static_cast<std::size_t>(width * height), 7);
+  for (int y0 = 0; y0 < height; y0 += ridge_block_px) {
+    for (int x0 = 0; x0 < width; x0 += ridge_block_px) {
+      RidgeBlock block{luma.data(), width, width, height, x0, y0, {1, 4, 10}, {2, 5, 10}, 3, 3, 20, 90};
+      RidgeBits bits;
+      kernels.find_ridges(block, bits);
+      for (int k = 0; k < max_ridge_looks; ++k) {
+        for (int bit = 0; bit < 64; ++bit) {
+          const int x = x0 + bit % 8;
+          const int y = y0 + bit / 8;
+          const int dx = block.row_reach[k];
+          const int dy = block.column_reach[k];
+          if (x - dx >= 0 && x + dx < width && y >= 1 && y + 1 < height) {
+            REQUIRE(((bits.row_weak[k] >> bit) & 1U) == (stands_out(luma, width, x, y, dx, 0, 20) ? 1 : 0));
+            REQUIRE(((bits.row_strong[k] >> bit) & 1U) == (stands_out(luma, width, x, y, dx, 0, 90) ? 1 : 0));
+          }
+          if (y - dy >= 0 && y + dy < height && x >= 1 && x + 1 < width) {
+            REQUIRE(((bits.column_weak[k] >> bit) & 1U) == (stands_out(luma, width, x, y, 0, dy, 20) ? 1 : 0));
+            REQUIRE(((bits.column_strong[k] >> bit) & 1U) == (stands_out(luma, width, x, y, 0, dy, 90) ? 1 : 0));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("ridges are those of the definition, with every table of kernels") {
+  check_ridges(portable_kernels());
+  check_ridges(fastest_kernels());
+}
+
+}  // namespace
+}  // namespace touchline

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops that gain from wide vectors, as a table of functions that never changes. The caller's configuration holds it.
+// Every function gives the results of the portable code, bit for bit (tests/vision/image/kernels_test.cpp), so the
+// choice changes nothing but the time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "vision/image/colour_matrix.h"
+#include "vision/image/ridge_block.h"
+
+namespace touchline {
+
+/// Two working rows of a frame that is twice as high as the working image, in rows of three interleaved bytes.
+struct HalvedRows {
+  const std::uint8_t* source[4] = {};           // two for the upper working row, two for the lower
+  int source_bytes = 0;                         // of each
+  const std::uint16_t* first_column = nullptr;  // of each working column's window of four source columns
+  /// Of each working column of a period, sixteen: w0 w1 three times, 0 0, w2 w3 three times, 0 0; all below 128.
+  const std::int8_t* weights = nullptr;
+  int columns = 0;          // a multiple of 8
+  int period = 0;           // columns after which the weights repeat, a multiple of 4
+  std::uint16_t scale = 0;  // from sums to 8.6 bit, in 1/65536
+  ColourMatrix matrix;
+  std::uint8_t* y[2] = {};
+  std::uint8_t* cb = nullptr;
+  std::uint8_t* cr = nullptr;
+};
+
+struct Kernels {
+  const char* name = nullptr;
+  void (*halve_rows)(const HalvedRows& rows) = nullptr;  // null: not offered
+  void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
+};
+
+/// For every processor.
+[[nodiscard]] Kernels portable_kernels();
+
+/// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
+/// instructions (platform/processor).
+[[nodiscard]] Kernels avx2_kernels();
+
+}  // namespace touchline

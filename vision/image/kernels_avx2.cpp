@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels for x86-64 with AVX2. This file alone is compiled for it: nothing here may be inlined elsewhere, and no
+// inline function of a header may be called, or the linker could hand its copy to those that run on older processors.
+#include "vision/image/kernels.h"
+
+#if defined(__x86_64__) && defined(__AVX2__)
+#include <immintrin.h>
+
+#include "vision/image/ridge_block_loops.h"
+
+namespace touchline {
+namespace {
+
+constexpr int fraction_bits = 6;
+constexpr int colour_shift = colour_bits + fraction_bits;
+
+__m128i load(const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
+__m256i load_two(const std::uint8_t* low, const std::uint8_t* high) {
+  return _mm256_inserti128_si256(_mm256_castsi128_si256(load(low)), load(high), 1);
+}
+
+/// Per working column (a half of the vector) the weighted sums of R, G, B over two source rows, in two parts.
+__m256i window_sums(const std::uint8_t* a, const std::uint8_t* b, int first, int second, __m256i weights) {
+  const __m256i pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 6, 9, 7, 10, 8, 11, -1, -1,  //
+                                         0, 3, 1, 4, 2, 5, -1, -1, 6, 9, 7, 10, 8, 11, -1, -1);
+  const __m256i upper = _mm256_shuffle_epi8(load_two(a + first, a + second), pairs);
+  const __m256i lower = _mm256_shuffle_epi8(load_two(b + first, b + second), pairs);
+  return _mm256_add_epi16(_mm256_maddubs_epi16(upper, weights), _mm256_maddubs_epi16(lower, weights));
+}
+
+struct Sources {
+  const std::uint8_t *a, *b;
+};
+
+/// Columns 0, 2 | 1, 3 of four, each R G B 0 in 8.6 bit.
+[[gnu::always_inline]] inline __m256i four_columns(const Sources& s, const std::uint16_t* first,
+                                                   const std::int8_t* weights, __m256i scale) {
+  const auto* w = reinterpret_cast<const __m256i*>(weights);
+  const __m256i c01 = window_sums(s.a, s.b, 3 * first[0], 3 * first[1], _mm256_loadu_si256(w));
+  const __m256i c23 = window_sums(s.a, s.b, 3 * first[2], 3 * first[3], _mm256_loadu_si256(w + 1));
+  const __m256i sum = _mm256_add_epi16(_mm256_unpacklo_epi64(c01, c23), _mm256_unpackhi_epi64(c01, c23));
+  return _mm256_mulhi_epu16(sum, scale);
+}
+
+struct Row {
+  __m256i coefficients, offset;
+};
+Row make_row(const ColourRow& m) {
+  const std::int64_t lanes =
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.a)) |
+                                static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.b)) << 16 |
+                                static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.c)) << 32);
+  return {_mm256_set1_epi64x(lanes), _mm256_set1_epi32(m.offset * (1 << fraction_bits) + (1 << (colour_shift - 1)))};
+}
+
+/// Eight luma samples.
+void store_luma(__m256i low, __m256i high, const Row& m, std::uint8_t* out) {
+  const __m256i sums =
+      _mm256_hadd_epi32(_mm256_madd_epi16(low, m.coefficients), _mm256_madd_epi16(high, m.coefficients));
+  const __m256i y = _mm256_srai_epi32(_mm256_add_epi32(sums, m.offset), colour_shift);  // 0 2 4 6 | 1 3 5 7
+  const __m128i words = _mm_packs_epi32(_mm256_castsi256_si128(y), _mm256_extracti128_si256(y, 1));
+  const __m128i bytes = _mm_packus_epi16(words, words);
+  const __m128i in_order = _mm_shuffle_epi8(bytes, _mm_setr_epi8(0, 4, 1, 5, 2, 6, 3, 7, 0, 4, 1, 5, 2, 6, 3, 7));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(out), in_order);
+}
+
+/// Means over 2x2 of two working columns each.
+__m128i two_chroma(__m256i upper, __m256i lower) {
+  const __m256i both = _mm256_add_epi16(upper, lower);
+  const __m128i sum = _mm_add_epi16(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
+  return _mm_srli_epi16(_mm_add_epi16(sum, _mm_set1_epi16(2)), 2);
+}
+
+/// Four chroma samples.
+void store_chroma(__m128i low, __m128i high, const Row& m, std::uint8_t* out) {
+  const __m128i c = _mm256_castsi256_si128(m.coefficients);
+  const __m128i sums = _mm_hadd_epi32(_mm_madd_epi16(low, c), _mm_madd_epi16(high, c));
+  const __m128i v = _mm_srai_epi32(_mm_add_epi32(sums, _mm256_castsi256_si128(m.offset)), colour_shift);
+  const __m128i words = _mm_packs_epi32(v, v);
+  const int four = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+  __builtin_memcpy(out, &four, sizeof four);
+}
+
+/// Columns whose windows may be read with sixteen bytes inside the row.
+int inner_columns(const HalvedRows& r) {
+  int columns = r.columns;
+  while (columns > 0 && 3 * r.first_column[columns - 1] + 16 > r.source_bytes) columns -= 8;
+  return columns;
+}
+
+/// By value, so that the compiler sees that no store of bytes can change it.
+struct Job {
+  HalvedRows rows;
+  __m256i scale;
+  Row y, cb, cr;
+
+  /// Eight working columns from x on; `shift`: where in the windows' rows the sources begin.
+  [[gnu::always_inline]] void eight(const Sources& upper, const Sources& lower, const std::uint16_t* first, int x,
+                                    int phase) const {
+    const int next = phase + 4 >= rows.period ? phase + 4 - rows.period : phase + 4;
+    const std::int8_t* weights = rows.weights + 16 * phase;
+    const std::int8_t* more = rows.weights + 16 * next;
+    const __m256i u0 = four_columns(upper, first, weights, scale);
+    const __m256i u1 = four_columns(upper, first + 4, more, scale);
+    store_luma(u0, u1, y, rows.y[0] + x);
+    const __m256i l0 = four_columns(lower, first, weights, scale);
+    const __m256i l1 = four_columns(lower, first + 4, more, scale);
+    store_luma(l0, l1, y, rows.y[1] + x);
+    const __m128i c0 = two_chroma(u0, l0);
+    const __m128i c1 = two_chroma(u1, l1);
+    store_chroma(c0, c1, cb, rows.cb + x / 2);
+    store_chroma(c0, c1, cr, rows.cr + x / 2);
+  }
+};
+
+/// The last columns, on a copy with room behind it.
+[[gnu::noinline]] void last_columns(const Job* job, int x, int phase) {
+  constexpr int window_bytes = 128;  // eight columns of ratio 4 at the most, and sixteen bytes
+  const HalvedRows& rows = job->rows;
+  std::uint8_t copies[4][window_bytes] = {};
+  std::uint16_t first[8];
+  const int begin = rows.first_column[x];
+  for (int i = 0; i < 8; ++i) first[i] = static_cast<std::uint16_t>(rows.first_column[x + i] - begin);
+  const int left = rows.source_bytes - 3 * begin;
+  const auto bytes = static_cast<std::size_t>(left < window_bytes ? left : window_bytes);
+  for (int k = 0; k < 4; ++k) __builtin_memcpy(copies[k], rows.source[k] + 3 * begin, bytes);
+  job->eight({copies[0], copies[1]}, {copies[2], copies[3]}, first, x, phase);
+}
+
+void halve_rows(const HalvedRows& r) {
+  const Job job{r, _mm256_set1_epi16(static_cast<short>(r.scale)), make_row(r.matrix.y), make_row(r.matrix.cb),
+                make_row(r.matrix.cr)};
+  const int columns = r.columns;
+  const int period = r.period;
+  const int inner = inner_columns(r);
+  int phase = 0;
+  int x = 0;
+  for (; x < inner; x += 8) {
+    job.eight({job.rows.source[0], job.rows.source[1]}, {job.rows.source[2], job.rows.source[3]},
+              job.rows.first_column + x, x, phase);
+    phase += 8;
+    while (phase >= period) phase -= period;
+  }
+  const Job copy = job;  // its address is taken: only of the copy
+  for (; x < columns; x += 8) {
+    last_columns(&copy, x, phase);
+    phase += 8;
+    while (phase >= period) phase -= period;
+  }
+}
+
+}  // namespace
+
+Kernels avx2_kernels() { return {"avx2", halve_rows, ridge::find_ridges}; }
+
+}  // namespace touchline
+
+#else
+
+namespace touchline {
+Kernels avx2_kernels() { return {}; }
+}  // namespace touchline
+
+#endif
