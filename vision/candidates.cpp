@@ -2,6 +2,7 @@
 #include "vision/candidates.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "vision/image/bit_ops.h"
 #include "vision/line_extent.h"
@@ -70,6 +71,40 @@ EdgeVerdict judge(const EdgeInput& input, const Edge& e, int& length) {
   return EdgeVerdict::line;
 }
 
+/// The pixels from which one of the next `side_reach` in a direction is set, for 64 pixels of a row at once.
+struct Near {
+  BitWord left = 0, right = 0, above = 0, below = 0;
+};
+Near near_bits(ConstBitView mask, int y, int word) {
+  Near near;
+  const BitWord* row = mask.row(y);
+  const BitWord before = word > 0 ? row[word - 1] : 0;
+  const BitWord after = word + 1 < words_for(mask.width) ? row[word + 1] : 0;
+  for (int k = 1; k <= side_reach; ++k) {
+    near.left |= row[word] << k | before >> (bits_per_word - k);
+    near.right |= row[word] >> k | after << (bits_per_word - k);
+    if (y >= k) near.above |= mask.row(y - k)[word];
+    if (y + k < mask.height) near.below |= mask.row(y + k)[word];
+  }
+  return near;
+}
+
+/// Of 64 edge pixels those whose verdict does not depend on the edge's direction: they are counted at once, for most
+/// edges are the carpet's noise, and the rest is returned.
+BitWord undecided(const EdgeInput& input, int y, int word, int& without_green, int& without_white) {
+  const BitWord edges = input.edges.row(y)[word];
+  if (edges == 0) return 0;
+  const Near white = near_bits(input.white, y, word);
+  const BitWord no_white = edges & ~(white.left | white.right | white.above | white.below);
+  if (no_white == 0) return edges;
+  const Near green = near_bits(input.green, y, word);
+  const BitWord nowhere = no_white & ~(green.left | green.right | green.above | green.below);
+  const BitWord everywhere = no_white & green.left & green.right & green.above & green.below;
+  without_green += bits_set(nowhere);
+  without_white += bits_set(everywhere);
+  return edges & ~(nowhere | everywhere);
+}
+
 }  // namespace
 
 const char* to_string(CandidateRejection reason) {
@@ -95,7 +130,7 @@ CannyThresholds edge_thresholds(const CarpetModel& carpet) {
 int add_line_edges(const EdgeInput& input, BitView lines, std::array<int, candidate_rejections>& rejected) {
   const auto count_rejection = [&rejected](CandidateRejection reason) { ++rejected[static_cast<std::size_t>(reason)]; };
   int taken = 0;
-  for_each_set_bit(input.edges, [&](int x, int y) {
+  const auto look = [&](int x, int y) {
     const Edge edge = edge_at(input.luma, x, y);
     int length = 0;
     switch (judge(input, edge, length)) {
@@ -109,7 +144,17 @@ int add_line_edges(const EdgeInput& input, BitView lines, std::array<int, candid
       case EdgeVerdict::without_green: count_rejection(CandidateRejection::edge_without_green); break;
       case EdgeVerdict::of_wide: count_rejection(CandidateRejection::edge_of_wide); break;
     }
-  });
+  };
+  int& without_green = rejected[static_cast<std::size_t>(CandidateRejection::edge_without_green)];
+  int& without_white = rejected[static_cast<std::size_t>(CandidateRejection::edge_without_white)];
+  const int words = words_for(input.edges.width);
+  for (int y = 0; y < input.edges.height; ++y) {
+    for (int i = 0; i < words; ++i) {
+      for (BitWord left = undecided(input, y, i, without_green, without_white); left != 0; left &= left - 1) {
+        look(i * bits_per_word + std::countr_zero(left), y);
+      }
+    }
+  }
   return taken;
 }
 
