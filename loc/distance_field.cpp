@@ -113,25 +113,6 @@ void DistanceField::build(const Field& field) {
   }
 }
 
-float DistanceField::distance(const FieldPoint& p, LineAxis axis) const {
-  constexpr float per_metre = 1.0F / cell;
-  const float u = math::abs(p.x) * per_metre;
-  const float v = math::abs(p.y) * per_metre;
-  if (!(u < static_cast<float>(columns_ - 1) && v < static_cast<float>(rows_ - 1))) return cap;
-  const int column = static_cast<int>(u);
-  const int row = static_cast<int>(v);
-  const float right = u - static_cast<float>(column);
-  const float down = v - static_cast<float>(row);
-  const std::uint8_t* node = layers_[axis == LineAxis::x ? 0 : 1].data() + (row * columns_ + column);
-  const float a = static_cast<float>(node[0]);
-  const float b = static_cast<float>(node[1]);
-  const float c = static_cast<float>(node[columns_]);
-  const float d = static_cast<float>(node[columns_ + 1]);
-  const float top = a + right * (b - a);
-  const float bottom = c + right * (d - c);
-  return unit * (top + down * (bottom - top));
-}
-
 LineMatch nearest_line(const Field& field, const FieldPoint& p, float dx, float dy) {
   const bool along_x = axis_of(dx, dy) == LineAxis::x;
   float best = 0.0F;

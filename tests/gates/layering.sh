@@ -37,7 +37,8 @@ rule() {
 }
 
 rule platform/core 'platform/core/' "$std_allowed"
-rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+"
+# Kernels, and the loops that they share, are the only files that may name a processor's vector instructions.
+rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+" '^vision/image/(kernels_[a-z0-9]+[.]cpp|[a-z_]+_loops[.]h)$'
 rule loc 'platform/core/|vision/|loc/' "$std_allowed|Eigen/[A-Za-z]+"
 # hal: interfaces and codecs are core; backends may use the operating system.
 rule hal 'platform/core/|hal/' "$std_allowed" '^hal/(linux|mock|replay|firmware)/'
