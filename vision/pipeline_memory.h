@@ -32,10 +32,10 @@ enum class MaskId : std::uint8_t {
   roi,          // its hull
   candidates,   // white search united with Canny
   line_mask,
-  skeleton,
   post_colour,  // the colour of goal posts
   edges,        // Canny's, before the rule of white and green
   scratch,
+  skeleton,    // in the memory of white
   count,
 };
 inline constexpr std::size_t mask_count = static_cast<std::size_t>(MaskId::count);

@@ -25,7 +25,9 @@ class PipelineStorage {
     for (std::size_t i = 0; i < m.depth; ++i) m.slots[i] = samples(images_[i]);
     if constexpr (Depth > 1) m.mean = samples(images_[m.depth]);
     m.subsample = subsample_.memory();
-    for (std::size_t i = 0; i < mask_count; ++i) m.masks[i] = masks_[i].words;
+    for (std::size_t i = 0; i < stored_masks; ++i) m.masks[i] = masks_[i].words;
+    // The skeleton is made after white was last looked at.
+    m.masks[static_cast<std::size_t>(MaskId::skeleton)] = m.masks[static_cast<std::size_t>(MaskId::white)];
     m.rays = rays_;
     m.line_widths = line_widths_;
     m.thinning = thinning_;
@@ -35,7 +37,7 @@ class PipelineStorage {
     m.contour = contour_;
     m.hull = hull_;
     m.hull_scratch = hull_scratch_;
-    m.canny = canny_.memory();
+    m.canny = {subsample_.scratch};  // frames are subsampled before their edges are looked for
     m.graph = graph_.memory();
     m.feature_work = &feature_work_;
     m.features = &features_;
@@ -48,7 +50,11 @@ class PipelineStorage {
 
   std::array<Slot, static_cast<std::size_t>(Depth) + mean_images> images_{};
   SubsampleStorage<FrameWidth, W> subsample_{};
-  std::array<BitImage<W, H>, mask_count> masks_{};
+  static constexpr std::size_t stored_masks = mask_count - 1;
+  static_assert(static_cast<std::size_t>(MaskId::skeleton) == stored_masks, "the last one shares its memory");
+  static_assert(static_cast<std::size_t>(canny_rows * canny_row_stride(W)) <=
+                decltype(subsample_)::sums + decltype(subsample_)::rows);
+  std::array<BitImage<W, H>, stored_masks> masks_{};
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
   std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>
       line_widths_{};
@@ -61,14 +67,13 @@ class PipelineStorage {
   std::array<GridPoint, static_cast<std::size_t>(2 * (W + H))> contour_{};
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_{};
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_scratch_{};
-  CannyStorage<W> canny_{};
   GraphStorage<W, H> graph_{};
   FeatureWork feature_work_{};
   Features features_{};
 };
 
 // The budget at 320x240.
-static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 1004 * 1024);
-static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 556 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 928 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 480 * 1024);
 
 }  // namespace touchline

@@ -33,9 +33,7 @@ struct ChainUnderTest {
     config.work_width = work_width;
     config.work_height = work_height;
     config.fifo_depth = Depth;
-    config.line_width_m = pool.field.line_width;
-    config.circle_radius_m = pool.field.circle_radius;
-    config.post_diameter_m = pool.field.post_diameter;
+    tell_vision(pool.field, config);
     config.kernels = fastest_kernels();
     Lens lens;
     require(Lens::create(pool.lens, lens), "lens");

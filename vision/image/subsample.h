@@ -31,11 +31,15 @@ struct SubsampleStorage {
   static constexpr std::size_t work = static_cast<std::size_t>(WorkWidth);
   std::array<std::uint16_t, work> first_column{};
   std::array<std::uint16_t, 2 * work + frame> weights{};
-  std::array<std::uint16_t, 3 * frame + static_cast<std::size_t>(subsample_lanes)> column_sums{};
+  static constexpr std::size_t sums = 3 * frame + static_cast<std::size_t>(subsample_lanes);
+  static constexpr std::size_t rows = 10 * static_cast<std::size_t>(whole_lanes(WorkWidth));
   std::array<std::uint8_t, 3 * frame> unpacked{};
-  std::array<std::uint16_t, 10 * static_cast<std::size_t>(whole_lanes(WorkWidth))> work_rows{};
+  std::array<std::uint16_t, sums + rows> scratch{};  // nothing stays in it: others may use it between two frames
 
-  [[nodiscard]] SubsampleMemory memory() { return {first_column, weights, column_sums, unpacked, work_rows}; }
+  [[nodiscard]] SubsampleMemory memory() {
+    const std::span<std::uint16_t> all = scratch;
+    return {first_column, weights, all.first(sums), unpacked, all.subspan(sums)};
+  }
 };
 
 /// One axis of the area weighting. Source pixel i covers start(i)..start(i + 1), working pixel o covers
