@@ -113,6 +113,8 @@ void DistanceField::build(const Field& field) {
   }
 }
 
+float DistanceField::distance(const FieldPoint& p, LineAxis axis) const { return distance_inline(p, axis); }
+
 LineMatch nearest_line(const Field& field, const FieldPoint& p, float dx, float dy) {
   const bool along_x = axis_of(dx, dy) == LineAxis::x;
   float best = 0.0F;

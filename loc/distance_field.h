@@ -34,6 +34,8 @@ class DistanceField {
   /// around. Error: half a unit where the distance is linear, and up to half a cell (25 mm) too much (too little) where
   /// its slope jumps inside a cell: on a line that lies between nodes (half-way between two lines).
   [[nodiscard]] float distance(const FieldPoint& p, LineAxis axis) const;
+  /// The same in the header, for loops over particles and samples.
+  [[nodiscard]] float distance_inline(const FieldPoint& p, LineAxis axis) const;
   /// Distance to the nearest line of either.
   [[nodiscard]] float distance(const FieldPoint& p) const {
     return math::min(distance(p, LineAxis::x), distance(p, LineAxis::y));
@@ -52,8 +54,7 @@ class DistanceField {
   std::array<Layer, 2> layers_{};
 };
 
-/// In the header, because it is called for every particle and sample.
-inline float DistanceField::distance(const FieldPoint& p, LineAxis axis) const {
+inline float DistanceField::distance_inline(const FieldPoint& p, LineAxis axis) const {
   constexpr float per_metre = 1.0F / cell;
   const float u = math::abs(p.x) * per_metre;
   const float v = math::abs(p.y) * per_metre;

@@ -119,7 +119,7 @@ struct Search {
   [[nodiscard]] float grid_score(const TurnedList& turned, float x, float y) const {
     float sum = 0.0F;
     for (const Turned& t : turned) {
-      const float d = map.distance({x + t.x, y + t.y}, t.axis);
+      const float d = map.distance_inline({x + t.x, y + t.y}, t.axis);
       sum -= t.weight * robust_cost(d * d * t.inverse_variance);
     }
     return sum;
