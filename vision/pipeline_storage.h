@@ -49,11 +49,9 @@ class PipelineStorage {
   static Yuv420Samples samples(Slot& slot) { return {slot.y.samples, slot.cb.samples, slot.cr.samples}; }
 
   std::array<Slot, static_cast<std::size_t>(Depth) + mean_images> images_{};
-  SubsampleStorage<FrameWidth, W> subsample_{};
+  SubsampleStorage<FrameWidth, W, static_cast<std::size_t>(canny_rows* canny_row_stride(W))> subsample_{};
   static constexpr std::size_t stored_masks = mask_count - 1;
   static_assert(static_cast<std::size_t>(MaskId::skeleton) == stored_masks, "the last one shares its memory");
-  static_assert(static_cast<std::size_t>(canny_rows * canny_row_stride(W)) <=
-                decltype(subsample_)::sums + decltype(subsample_)::rows);
   std::array<BitImage<W, H>, stored_masks> masks_{};
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
   std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>

@@ -25,7 +25,8 @@ inline constexpr int subsample_lanes = 8;  // of a vector
 constexpr int whole_lanes(int columns) { return (columns + subsample_lanes - 1) / subsample_lanes * subsample_lanes; }
 
 /// Storage for frames of up to FrameWidth and working images of up to WorkWidth columns.
-template <int FrameWidth, int WorkWidth>
+/// `LeastScratch`: samples of scratch that somebody else wants to use between two frames.
+template <int FrameWidth, int WorkWidth, std::size_t LeastScratch = 0>
 struct SubsampleStorage {
   static constexpr std::size_t frame = static_cast<std::size_t>(FrameWidth);
   static constexpr std::size_t work = static_cast<std::size_t>(WorkWidth);
@@ -34,7 +35,8 @@ struct SubsampleStorage {
   static constexpr std::size_t sums = 3 * frame + static_cast<std::size_t>(subsample_lanes);
   static constexpr std::size_t rows = 10 * static_cast<std::size_t>(whole_lanes(WorkWidth));
   std::array<std::uint8_t, 3 * frame> unpacked{};
-  std::array<std::uint16_t, sums + rows> scratch{};  // nothing stays in it: others may use it between two frames
+  std::array<std::uint16_t, (sums + rows > LeastScratch ? sums + rows : LeastScratch)>
+      scratch{};  // nothing stays in it
 
   [[nodiscard]] SubsampleMemory memory() {
     const std::span<std::uint16_t> all = scratch;
@@ -71,7 +73,8 @@ class Subsampler {
   /// invalid_argument: a size below 1, a frame larger than max_frame_width x max_frame_height or smaller than the
   /// working image. capacity: the memory is for smaller images. The old configuration then stays. `kernels` are
   /// used where they fit the sizes; they do not change the result.
-  Status configure(int frame_width, int frame_height, int work_width, int work_height, const Kernels& kernels = portable_kernels());
+  Status configure(int frame_width, int frame_height, int work_width, int work_height,
+                   const Kernels& kernels = portable_kernels());
 
   /// not_ready: not configured. wrong_size: `frame` or `out` has another size than configured. invalid_argument: no
   /// data, a stride that is too short, or YUYV of odd width. In all these cases `out` is as it was.
@@ -95,7 +98,7 @@ class Subsampler {
   int taps_ = 0;    // most source columns that a working column needs
   int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
   std::uint16_t scale_ = 0;  // from sums to 8.6 bit, in 1/65536
-  Kernels kernels_;  // where they are used
+  Kernels kernels_;          // where they are used
   bool wide_ = false;        // sums need 32 bit: the weights are rounded
   bool configured_ = false;
 };
