@@ -81,8 +81,8 @@ Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const c
   if (static_cast<std::size_t>(config.fifo_depth) > memory_.depth) return refuse(what, "fifo_depth");
   PipelineViews views;
   if (!make_views(memory_, config.work_width, config.work_height, views)) return refuse(what, "work_width");
-  const Status status =
-      subsampler_.configure(config.frame_width, config.frame_height, config.work_width, config.work_height, config.kernels);
+  const Status status = subsampler_.configure(config.frame_width, config.frame_height, config.work_width,
+                                              config.work_height, config.kernels);
   if (status != Status::ok) {
     (void)refuse(what, "frame_width");
     return status;

@@ -35,7 +35,7 @@ enum class MaskId : std::uint8_t {
   post_colour,  // the colour of goal posts
   edges,        // Canny's, before the rule of white and green
   scratch,
-  skeleton,    // in the memory of white
+  skeleton,  // in the memory of white
   count,
 };
 inline constexpr std::size_t mask_count = static_cast<std::size_t>(MaskId::count);

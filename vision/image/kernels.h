@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops that gain from wide vectors, as a table of functions that never changes. The caller's configuration holds it.
-// Every function gives the results of the portable code, bit for bit (tests/vision/image/kernels_test.cpp), so the
+// The loops that gain from wide vectors, as a table of functions that never changes. The caller's configuration holds
+// it. Every function gives the results of the portable code, bit for bit (tests/vision/image/kernels_test.cpp), so the
 // choice changes nothing but the time.
 #pragma once
 

@@ -181,7 +181,8 @@ bool has_size(const ImageView<std::uint8_t>& image, int width, int height) {
 
 }  // namespace
 
-Status Subsampler::configure(int frame_width, int frame_height, int work_width, int work_height, const Kernels& kernels) {
+Status Subsampler::configure(int frame_width, int frame_height, int work_width, int work_height,
+                             const Kernels& kernels) {
   if (work_width < 1 || work_height < 1 || frame_width < work_width || frame_height < work_height) {
     return Status::invalid_argument;
   }
@@ -250,8 +251,8 @@ std::size_t pair_weights(int period, int taps) { return static_cast<std::size_t>
 bool Subsampler::fits_kernels(const Kernels& kernels) const {
   return kernels.halve_rows != nullptr && period_ != 0 && period_ % 4 == 0 && taps_ <= kernel_taps &&
          horizontal_.target % 8 == 0 && vertical_.target % 2 == 0 && vertical_.source == 2 * vertical_.target &&
-         vertical_.cell == 2 && 2 * horizontal_.cell <= max_exact_cells && horizontal_.source <= 4 * horizontal_.target &&
-         most_weight(horizontal_) < 128 &&
+         vertical_.cell == 2 && 2 * horizontal_.cell <= max_exact_cells &&
+         horizontal_.source <= 4 * horizontal_.target && most_weight(horizontal_) < 128 &&
          pair_weights(period_, taps_) + static_cast<std::size_t>(period_ * kernel_bytes / 2) <= memory_.weights.size();
 }
 
