@@ -174,8 +174,8 @@ Protocol read_protocol(KeyReader& keys) {
 
 /// What the frames need of dataset.toml beside the parsed values: the raw tables that a frame's keys are laid over.
 struct TomlTables {
-  json camera;
-  json mount;
+  json camera = json::object();
+  json mount = json::object();
   double goal_yaw_deg = 0.0;
 };
 
