@@ -293,9 +293,8 @@ Sym2 CircleFinder::covariance(const GroundPoint& centre, const Sym2& information
 /// Votes for a place that turned out to be no circle, or is one already looked at.
 void CircleFinder::withdraw_votes(const GroundPoint& centre) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < work_.votes.size(); ++i) {
-    if (distance(work_.votes[i], centre) > vote_gather_radii * parameters_.radius_m)
-      work_.votes[kept++] = work_.votes[i];
+  for (const GroundPoint& vote : work_.votes.span()) {
+    if (distance(vote, centre) > vote_gather_radii * parameters_.radius_m) work_.votes[kept++] = vote;
   }
   work_.votes.truncate(kept);
 }

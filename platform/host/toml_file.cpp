@@ -12,7 +12,8 @@
 namespace touchline::host {
 namespace {
 
-nlohmann::json to_json(const toml::node& node) {  // as deep as the file is nested; toml++ bounds that
+// NOLINTNEXTLINE(misc-no-recursion): a tree, as deep as the file is nested; toml++ bounds that
+nlohmann::json to_json(const toml::node& node) {
   if (const auto* table = node.as_table()) {
     auto out = nlohmann::json::object();
     for (const auto& [key, value] : *table) out[std::string(key.str())] = to_json(value);

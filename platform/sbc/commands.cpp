@@ -47,7 +47,7 @@ int check_robot(const std::string& path, std::ostream& out) {
   const RobotFile file = read_robot_file(path);
   for (const std::string& address : file.output.udp) {
     const std::string error = udp_address_error(address);
-    if (!error.empty()) throw host::HostError(path + ": output.udp: " + error);
+    if (!error.empty()) throw host::HostError(std::string(path).append(": output.udp: ").append(error));
   }
   const bool replayed = file.camera_backend == CameraBackend::replay;
   out << path << " is good.\n  camera  " << (replayed ? "replay of " + file.replay_folder.string() : file.camera.device)

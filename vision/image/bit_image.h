@@ -33,8 +33,9 @@ struct BasicBitView {
   }
   void set(int x, int y, bool value) const requires(!std::is_const_v<W>) {
     assert(x >= 0 && x < width);
-    const BitWord bit = BitWord{1} << (x % bits_per_word);
-    W& word = row(y)[x / bits_per_word];
+    const auto column = static_cast<unsigned>(x);
+    const BitWord bit = BitWord{1} << (column % bits_per_word);
+    W& word = row(y)[column / bits_per_word];
     word = value ? (word | bit) : (word & ~bit);
   }
   operator BasicBitView<const W>() const  // NOLINT: a writable view is a readable one
