@@ -18,9 +18,9 @@ using I16x16 = std::int16_t __attribute__((vector_size(32)));
 using U8x8 = std::uint8_t __attribute__((vector_size(8)));
 using U8x16 = std::uint8_t __attribute__((vector_size(16)));
 
-constexpr int margin_px = 12;      // left of the block in the patch, at least the reach
-constexpr int patch_columns = 32;  // margin, block, margin
-constexpr int across_rows = ridge_block_px + 2 * max_ridge_reach_px;
+inline constexpr int margin_px = 12;      // left of the block in the patch, at least the reach
+inline constexpr int patch_columns = 32;  // margin, block, margin
+inline constexpr int across_rows = ridge_block_px + 2 * max_ridge_reach_px;
 
 template <typename Vector>
 [[gnu::always_inline]] inline Vector load_from(const void* from) {
@@ -83,7 +83,7 @@ struct Patch {
   }
 };
 
-constexpr int copied_rows = across_rows + 2;
+inline constexpr int copied_rows = across_rows + 2;
 using Copy = std::uint8_t[copied_rows][patch_columns];
 
 inline Patch make_patch(const RidgeBlock& block, Copy& copy) {
