@@ -8,36 +8,10 @@
 // an obstacle has no type, so where a branch is missing the carpet has to be seen.
 #pragma once
 
-#include "platform/core/static_vector.h"
-#include "vision/circle.h"
-#include "vision/features.h"
-#include "vision/image/bit_image.h"
-#include "vision/line_segments.h"
+#include "vision/junction_search.h"
 #include "vision/posts.h"
-#include "vision/work_rays.h"
 
 namespace touchline {
-
-struct JunctionParameters {
-  float line_width_m = 0.05F;
-  float max_range_m = 6.0F;
-};
-
-/// Two stretches of line that meet at a right angle.
-struct JunctionCandidate {
-  GroundPoint ground;
-  float heading = 0.0F;    // of the line that is known better
-  float other = 0.0F;      // of the one across it
-  float off_angle = 0.0F;  // what they are off from a right angle, before that is made use of
-  float sigma = 0.0F;      // of the place, working pixels
-  bool taken = false;      // part of a junction that has been judged
-};
-inline constexpr std::size_t max_junction_candidates = 192;  // a frame of clutter shows half as many
-
-/// Working memory.
-struct JunctionWork {
-  StaticVector<JunctionCandidate, max_junction_candidates> candidates;
-};
 
 /// Working memory of all stages from the graph to the junctions.
 struct FeatureWork {
@@ -45,13 +19,6 @@ struct FeatureWork {
   CircleWork circle;
   JunctionWork junctions;
   PostWork posts;
-};
-
-/// The centre circle, where it was found (circle.h).
-struct SeenCircle {
-  const CircleObservation& observation;
-  const bool* seen;  // circle_bins parts, by angle about the centre, from -pi
-  float radius_m;
 };
 
 /// Appends to features.junctions and features.rejections. Returns how many junctions and candidates found no room.

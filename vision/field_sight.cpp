@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/field_sight.h"
+
+namespace touchline {
+namespace {
+
+constexpr float branch_widths = 2.2F;
+constexpr float branch_px = 3.5F;
+// A stretch ends where thinning bends the skeleton toward a fork. From there to the crossing the line has to be white.
+constexpr float max_gap_px = 25.0F;
+constexpr float max_gap_widths = 6.0F;
+constexpr float near_px = 3.0F;
+constexpr float near_widths = 0.5F;
+constexpr float line_px = 0.4F;  // 1 sigma of a line across, at its middle
+constexpr float line_widths = 0.1F;
+constexpr float flank_px = 1.5F;
+constexpr int flank_samples = 6;
+
+}  // namespace
+
+float FieldSight::metres_per_px(const GroundPoint& p, float direction) const {
+  const CameraPose& pose = rays_.projection().pose();
+  const float x = p.x - pose.x;
+  const float y = p.y - pose.y;
+  const float range = math::hypot(x, y);
+  const float depth = math::hypot(range, pose.height);
+  const float across = depth * rays_.radians_per_pixel();
+  const float towards = across * depth / pose.height;
+  if (!(range > 1.0e-3F)) return across;
+  const float c = (x * math::cos(direction) + y * math::sin(direction)) / range;
+  return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c));
+}
+
+float FieldSight::min_branch(const GroundPoint& p, float direction) const {
+  return math::max(branch_widths * line_width_, branch_px * metres_per_px(p, direction));
+}
+
+Sight FieldSight::look(const GroundPoint& from, const GroundPoint& to) const {
+  Sight sight;
+  WorkPoint a, b;
+  if (!rays_.work_point(from, 0.0F, a) || !rays_.work_point(to, 0.0F, b)) return {0.0F, 0.0F, 0.0F, 0.0F, false};
+  const float apart = math::max(math::abs(b.u - a.u), math::abs(b.v - a.v));
+  const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
+  int white = 0, middle = 0, carpet = 0, inside = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const float t = static_cast<float>(i) / static_cast<float>(steps);
+    const float u = a.u + t * (b.u - a.u);
+    const float v = a.v + t * (b.v - a.v);
+    const int x = static_cast<int>(u);
+    const int y = static_cast<int>(v);
+    if (!(u >= 0.0F && v >= 0.0F) || x >= rays_.work_width() || y >= rays_.work_height()) {
+      sight.seen = false;  // it leaves the picture: what comes after counts as nothing
+      break;
+    }
+    ++inside;
+    if (field_.roi.words != nullptr && !field_.roi.get(x, y)) sight.seen = false;
+    // The mask of a thin line may lie a pixel beside its middle.
+    const bool line = field_.lines.get(x, y) || field_.lines.get(x - 1, y) || field_.lines.get(x + 1, y) ||
+                      field_.lines.get(x, y - 1) || field_.lines.get(x, y + 1);
+    white += line ? 1 : 0;
+    const bool strict = field_.lines.get(x, y);
+    middle += strict ? 1 : 0;
+    carpet += strict || field_.green.get(x, y) ? 1 : 0;
+  }
+  const float all = static_cast<float>(steps + 1);
+  sight.white = static_cast<float>(white) / all;
+  sight.inside = static_cast<float>(inside) / all;
+  sight.middle = static_cast<float>(middle) / all;
+  sight.carpet = static_cast<float>(carpet) / all;
+  return sight;
+}
+
+bool FieldSight::reaches(const LineSegment& s, const GroundPoint& direction, const GroundPoint& at) const {
+  const float before = (s.end[0].x - at.x) * direction.x + (s.end[0].y - at.y) * direction.y;
+  const float after = (s.end[1].x - at.x) * direction.x + (s.end[1].y - at.y) * direction.y;
+  if (before * after <= 0.0F) return true;
+  const bool first = math::abs(before) < math::abs(after);
+  const float gap = math::abs(first ? before : after);
+  const float heading = math::atan2(direction.y, direction.x);
+  const float px = metres_per_px(at, heading);
+  if (gap <= math::max(near_widths * line_width_, near_px * px)) return true;
+  if (gap > math::min(max_gap_px * px, max_gap_widths * line_width_ + near_px * px)) return false;
+  return look(first ? s.end[0] : s.end[1], at).white >= white_enough;
+}
+
+float FieldSight::place_sigma(const GroundPoint& p, const LineSegment& a, float along) const {
+  const GroundPoint middle{0.5F * (a.end[0].x + a.end[1].x), 0.5F * (a.end[0].y + a.end[1].y)};
+  const float heading = math::atan2(a.direction.y, a.direction.x);
+  const float rag = line_widths * line_width_;
+  const float off =
+      math::hypot(a.sigma * ground_distance(middle, p), rag) / metres_per_px(p, wrap_angle(heading + math::half_pi));
+  const float ahead = math::hypot(along, rag) / metres_per_px(p, heading);
+  return math::sqrt(off * off + ahead * ahead + 2.0F * line_px * line_px);
+}
+
+bool FieldSight::has_flanks(const GroundPoint& from, float direction, float length) const {
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  const float px = metres_per_px(from, wrap_angle(direction + math::half_pi));
+  const float aside = 0.75F * line_width_ + flank_px * px;
+  for (const float side : {1.0F, -1.0F}) {
+    int carpet = 0, other = 0;
+    for (int i = 0; i < flank_samples; ++i) {
+      const float d = length * (static_cast<float>(i) + 1.0F) / static_cast<float>(flank_samples);
+      WorkPoint w;
+      const GroundPoint p{from.x + d * out.x - side * aside * out.y, from.y + d * out.y + side * aside * out.x};
+      if (!rays_.work_point(p, 0.0F, w) || !(w.u >= 0.0F && w.v >= 0.0F)) continue;
+      const int x = static_cast<int>(w.u);
+      const int y = static_cast<int>(w.v);
+      if (x >= rays_.work_width() || y >= rays_.work_height() || field_.lines.get(x, y)) continue;
+      if (field_.carpet.get(x, y)) {
+        ++carpet;
+      } else {
+        ++other;
+      }
+    }
+    if (other > carpet) return false;
+  }
+  return true;
+}
+
+}  // namespace touchline
