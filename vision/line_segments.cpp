@@ -3,26 +3,17 @@
 
 #include <cassert>
 
+#include "vision/line_plane.h"
+
 namespace touchline {
 namespace {
 
 using RayPoint = LineSegments::RayPoint;
 
-// A skeleton point lies within half a pixel of where thinning sees the middle, and thinning within half a pixel of it.
-constexpr float tolerance_px = 1.2F;
-// The edges of a wide line are ragged by texture and light; its middle moves by a part of the width.
-constexpr float tolerance_widths = 0.12F;
 // Thinning rounds a corner within half a width of it.
 constexpr float trim_widths = 0.6F;
 constexpr float trim_px = 2.0F;
-// It moves the ends of a stretch between two forks toward their sharp corners, and so turns short ones.
-constexpr float short_widths = 5.0F;
-constexpr float short_bend_widths = 0.7F;
-constexpr float bend_widths = 0.25F;
 constexpr int min_points = 5;
-// A fork, a foot or a post may lie between two parts of a line.
-constexpr float max_join_gap_m = 0.5F;
-constexpr float join_angle = radians(6.0F);
 
 float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
 
@@ -41,14 +32,6 @@ class SegmentFinder {
   void split(int first, int last);
   [[nodiscard]] int farthest(int first, int last) const;
   void fit(int first, int last);
-  bool measure(LineSegment& s, const Vec3& first, const Vec3& last) const;
-  void join_all();
-  bool join(LineSegment& a, const LineSegment& b) const;
-  [[nodiscard]] bool carpet_between(const GroundPoint& a, const GroundPoint& b) const;
-  /// How far a skeleton point may lie off its line, as an angle.
-  [[nodiscard]] float tolerance(float depth) const {
-    return tolerance_px * rays_.radians_per_pixel() + tolerance_widths * parameters_.line_width_m / depth;
-  }
   [[nodiscard]] float depth(int i) const;
   void trim(int& first, int& last) const;
 
@@ -90,7 +73,7 @@ void SegmentFinder::run() {
       }
     }
   }
-  join_all();
+  join_segments(rays_, field_, parameters_.line_width_m, out_);
 }
 
 /// Reads edge after edge through nodes of degree 2, from the end at node `start` (no_node: the free end).
@@ -176,7 +159,7 @@ int SegmentFinder::farthest(int first, int last) const {
   int at = -1;
   for (int i = first + 1; i < last; ++i) {
     const float off = math::abs(dot(normal, out_.chain[static_cast<std::size_t>(i)].ray));
-    const float allowed = tolerance(depth(i));
+    const float allowed = line_tolerance(rays_, parameters_.line_width_m, depth(i));
     if (off > worst * allowed) {
       worst = off / allowed;
       at = i;
@@ -230,39 +213,6 @@ void SegmentFinder::trim(int& first, int& last) const {
   }
 }
 
-/// Sums for a plane through the camera near that of two rays: its normal is n0 + a * along + b * towards.
-class PlaneFit {
- public:
-  PlaneFit(const Vec3& r0, const Vec3& r1)
-      : n0_(normalized(cross(r0, r1))),
-        along_(normalized({r1.x - r0.x, r1.y - r0.y, r1.z - r0.z})),
-        towards_(cross(n0_, along_)) {}
-  void add(const Vec3& r) {
-    const float x = dot(r, along_);
-    const float y = dot(r, n0_);
-    const float z = dot(r, towards_);
-    xx_ += x * x;
-    xz_ += x * z;
-    zz_ += z * z;
-    xy_ += x * y;
-    zy_ += z * y;
-  }
-  /// The normal for which the sum of squared distances is least; false when the rays span no plane.
-  [[nodiscard]] bool solve(Vec3& normal) const {
-    const float det = xx_ * zz_ - xz_ * xz_;
-    if (!(det > 1.0e-9F)) return false;
-    const float a = (-xy_ * zz_ + zy_ * xz_) / det;
-    const float b = (-zy_ * xx_ + xy_ * xz_) / det;
-    normal = normalized({n0_.x + a * along_.x + b * towards_.x, n0_.y + a * along_.y + b * towards_.y,
-                         n0_.z + a * along_.z + b * towards_.z});
-    return true;
-  }
-
- private:
-  Vec3 n0_, along_, towards_;
-  float xx_ = 0.0F, xz_ = 0.0F, zz_ = 0.0F, xy_ = 0.0F, zy_ = 0.0F;
-};
-
 void SegmentFinder::fit(int first, int last) {
   const auto ray = [this](int i) -> const Vec3& { return out_.chain[static_cast<std::size_t>(i)].ray; };
   int from = first;
@@ -271,102 +221,10 @@ void SegmentFinder::fit(int first, int last) {
   PlaneFit plane(ray(from), ray(to));
   for (int i = from; i <= to; ++i) plane.add(ray(i));
   LineSegment s;
-  if (!plane.solve(s.normal) || !measure(s, ray(first), ray(last))) return;
+  if (!plane.solve(s.normal) || !measure_segment(rays_, parameters_.line_width_m, ray(first), ray(last), s)) return;
   s.chain = chain_;
   s.points = static_cast<std::uint16_t>((last - first + 1) * stride_);
   out_.segments.push_back(s);
-}
-
-/// What follows from the plane and the rays near its ends; false when it is too short or not on the ground.
-bool SegmentFinder::measure(LineSegment& s, const Vec3& first, const Vec3& last) const {
-  const Vec3 ends[2] = {first, last};
-  for (int k = 0; k < 2; ++k) {
-    const float off = dot(ends[k], s.normal);
-    s.end_ray[k] =
-        normalized({ends[k].x - off * s.normal.x, ends[k].y - off * s.normal.y, ends[k].z - off * s.normal.z});
-    if (!rays_.projection().intersect_ground(s.end_ray[k], s.end[k])) return false;
-  }
-  s.length = distance(s.end[0], s.end[1]);
-  if (s.length < parameters_.line_width_m) return false;
-  s.direction = {(s.end[1].x - s.end[0].x) / s.length, (s.end[1].y - s.end[0].y) / s.length};
-  const float epsilon = 0.5F * rays_.radians_per_pixel();
-  s.is_short = s.length < short_widths * parameters_.line_width_m;
-  float shift = math::square((s.is_short ? short_bend_widths : bend_widths) * parameters_.line_width_m);
-  for (const Vec3& r : s.end_ray) {  // how far the line moves on the ground when its plane turns by epsilon at this end
-    const float reach = rays_.projection().pose().height / -r.z;
-    const float dx = reach * (s.normal.x - r.x / r.z * s.normal.z);
-    const float dy = reach * (s.normal.y - r.y / r.z * s.normal.z);
-    shift += math::square(epsilon * (dx * s.direction.y - dy * s.direction.x));
-  }
-  s.sigma = math::sqrt(shift) / s.length;
-  return true;
-}
-
-/// One line of the field, broken by a fork, a foot or a post, becomes one segment again.
-void SegmentFinder::join_all() {
-  for (std::size_t i = 0; i < out_.segments.size(); ++i) {
-    for (std::size_t k = 0; k < out_.segments.size(); ++k) {
-      if (k == i || !join(out_.segments[i], out_.segments[k])) continue;
-      out_.segments[k] = out_.segments.back();
-      out_.segments.pop_back();
-      // The grown segment may now reach others; each join takes one away, so this ends.
-      if (i == out_.segments.size()) i = k;
-      k = static_cast<std::size_t>(-1);
-    }
-  }
-}
-
-/// Whether bare carpet is seen between two points: then no line goes from one to the other.
-bool SegmentFinder::carpet_between(const GroundPoint& a, const GroundPoint& b) const {
-  WorkPoint from, to;
-  if (!rays_.work_point(a, 0.0F, from) || !rays_.work_point(b, 0.0F, to)) return false;
-  const float apart = math::max(math::abs(to.u - from.u), math::abs(to.v - from.v));
-  const int steps = static_cast<int>(math::clamp(apart + 0.5F, 1.0F, 64.0F));
-  int bare = 0;
-  for (int i = 0; i <= steps; ++i) {
-    const float t = static_cast<float>(i) / static_cast<float>(steps);
-    const int x = static_cast<int>(from.u + t * (to.u - from.u));
-    const int y = static_cast<int>(from.v + t * (to.v - from.v));
-    bare += field_.green.get(x, y) && !field_.lines.get(x, y) ? 1 : 0;
-  }
-  return bare > 1 && 3 * bare > steps;
-}
-
-/// Joins `b` to `a` when all four ends lie in one plane and the gap between is short.
-bool SegmentFinder::join(LineSegment& a, const LineSegment& b) const {
-  const float turn = math::abs(a.direction.x * b.direction.y - a.direction.y * b.direction.x);
-  if (turn > math::sin(math::min(join_angle + a.sigma + b.sigma, radians(30.0F)))) return false;
-  // The longest way between an end of one and an end of the other is the joined line.
-  float longest = 0.0F;
-  int far_a = 0, far_b = 0;
-  for (int i = 0; i < 4; ++i) {
-    const float d = distance(a.end[i / 2], b.end[i % 2]);
-    if (d <= longest) continue;
-    longest = d;
-    far_a = i / 2;
-    far_b = i % 2;
-  }
-  const float gap = longest - a.length - b.length;
-  if (gap > max_join_gap_m || longest < math::max(a.length, b.length)) return false;
-  const Vec3 outer[2] = {a.end_ray[far_a], b.end_ray[far_b]};
-  PlaneFit plane(outer[0], outer[1]);
-  LineSegment joined = a;
-  const LineSegment* const parts[2] = {&a, &b};
-  for (const LineSegment* s : parts) {
-    for (const Vec3& r : s->end_ray) plane.add(r);
-  }
-  if (!plane.solve(joined.normal)) return false;
-  for (const LineSegment* s : parts) {
-    for (const Vec3& r : s->end_ray) {
-      const float depth = rays_.projection().pose().height / -r.z;
-      if (math::abs(dot(joined.normal, r)) > tolerance(depth)) return false;
-    }
-  }
-  if (!measure(joined, outer[0], outer[1])) return false;
-  if (gap > 0.0F && carpet_between(a.end[1 - far_a], b.end[1 - far_b])) return false;
-  joined.points = static_cast<std::uint16_t>(a.points + b.points);
-  a = joined;
-  return true;
 }
 
 }  // namespace
