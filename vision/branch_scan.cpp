@@ -137,11 +137,8 @@ void BranchScan::add_stem(const LineSegment& s, const Run& run, float step, cons
 
 }  // namespace
 
-void scan_for_branches(const JunctionSearch& search) {
-  BranchScan scan(search);
-  for (const LineSegment& s : search.lines.segments) {
-    if (!s.on_circle && !s.is_short && s.sigma < long_line_sigma && s.points >= min_scan_points) scan.scan(s);
-  }
+void scan_for_branches(const JunctionSearch& search, const LineSegment& s) {
+  if (!s.is_short && s.sigma < long_line_sigma && s.points >= min_scan_points) BranchScan(search).scan(s);
 }
 
 }  // namespace touchline

@@ -63,10 +63,10 @@ void reject_junction(const JunctionSearch& search, const JunctionCandidate& c, i
 void accept_junction(const JunctionSearch& search, const JunctionCandidate& c, JunctionType type,
                      const float* directions, int count, float quality);
 
-/// Adds candidates where two segments meet.
-void find_line_crossings(const JunctionSearch& search);
-/// Adds candidates where the line mask shows a branch square to a long segment.
-void scan_for_branches(const JunctionSearch& search);
+/// Adds candidates where segment `i` meets one before it.
+void find_line_crossings(const JunctionSearch& search, std::size_t i);
+/// Adds candidates where the line mask shows a branch square to a segment, when that is long enough.
+void scan_for_branches(const JunctionSearch& search, const LineSegment& segment);
 /// Accepts the two X's where the half line cuts the centre circle.
 void cut_circle(const JunctionSearch& search);
 /// On the centre circle or inside it, where the half line is alone.

@@ -224,8 +224,11 @@ int find_junctions(const LineSegments& lines, const SeenCircle* circle, const Wo
   const FieldSight sight(rays, field, parameters.line_width_m);
   const JunctionSearch search{lines, circle, rays, field, parameters, sight, work, features};
   cut_circle(search);
-  scan_for_branches(search);
-  find_line_crossings(search);
+  for (std::size_t i = 0; i < lines.segments.size(); ++i) {
+    if (lines.segments[i].on_circle) continue;
+    scan_for_branches(search, lines.segments[i]);
+    find_line_crossings(search, i);
+  }
   JunctionJudge judge(search);
   judge.classify_all();
   judge.drop_bridges();

@@ -52,15 +52,12 @@ void consider(const JunctionSearch& search, const LineSegment& a, const LineSegm
 
 }  // namespace
 
-void find_line_crossings(const JunctionSearch& search) {
+void find_line_crossings(const JunctionSearch& search, std::size_t i) {
   const auto& segments = search.lines.segments;
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    if (segments[i].on_circle) continue;
-    for (std::size_t k = 0; k < i; ++k) {
-      if (segments[k].on_circle) continue;
-      const bool first_is_better = segments[i].sigma < segments[k].sigma;
-      consider(search, segments[first_is_better ? i : k], segments[first_is_better ? k : i]);
-    }
+  for (std::size_t k = 0; k < i; ++k) {
+    if (segments[k].on_circle) continue;
+    const bool first_is_better = segments[i].sigma < segments[k].sigma;
+    consider(search, segments[first_is_better ? i : k], segments[first_is_better ? k : i]);
   }
 }
 
