@@ -36,6 +36,8 @@ struct Kernels {
 
 /// For every processor.
 [[nodiscard]] Kernels portable_kernels();
+/// Those of processors without vector registers, for the tests elsewhere.
+[[nodiscard]] Kernels word_kernels();
 
 /// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
 /// instructions (platform/processor).

@@ -21,7 +21,7 @@ struct RidgeBlock {
   int row_reach[max_ridge_looks] = {}, column_reach[max_ridge_looks] = {};
   int row_looks = 0, column_looks = 0;
   /// Lumas are sums of weight 4: the pixel and its two neighbours across the look. It stands out when it is larger than
-  /// the larger of both sides by a sixteenth of that and by the margin. Margins up to 8,192.
+  /// the larger of both sides by a sixteenth of that and by the margin. Margins 0 to 8,192, strong at least weak.
   std::int16_t weak_margin = 0, strong_margin = 0;
 };
 

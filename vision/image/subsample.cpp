@@ -259,7 +259,7 @@ bool Subsampler::fits_kernels(const Kernels& kernels) const {
 void Subsampler::set_kernel_weights() {
   auto* bytes = reinterpret_cast<std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
   std::fill_n(bytes, period_ * kernel_bytes, std::int8_t{0});
-  for (int x = 0; x < std::min(period_, horizontal_.target); ++x) {
+  for (int x = 0; x < std::min<std::int32_t>(period_, horizontal_.target); ++x) {
     const int first = memory_.first_column[static_cast<std::size_t>(x)];
     for_each_tap(horizontal_, x, [&](int i, int weight) {
       const int tap = i - first;

@@ -115,6 +115,7 @@ void check_ridges(const Kernels& kernels) {
 
 TEST_CASE("ridges are those of the definition, with every table of kernels") {
   check_ridges(portable_kernels());
+  check_ridges(word_kernels());
   check_ridges(fastest_kernels());
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of ridge_block.h for processors without vector registers: two sums of 16 bits in each word of 32, and the
+// second comparison only where the first finds something (H. S. Warren, "Hacker's Delight", 2nd ed., section 2-18).
+#pragma once
+
+#include "vision/image/ridge_block_loops.h"
+
+namespace touchline {
+namespace {
+namespace ridge_words {
+
+inline constexpr int px = ridge_block_px;
+inline constexpr std::uint32_t bytes_02 = 0x00FF00FFU;
+inline constexpr std::uint32_t both_lanes = 0x00010001U;
+inline constexpr std::uint32_t tops = 0x80008000U;
+
+inline std::uint32_t load_word(const void* from) {
+  std::uint32_t word = 0;
+  __builtin_memcpy(&word, from, sizeof word);
+  return word;
+}
+
+/// Sums of weight 4, and what a pixel has to reach to stand out weakly from a side with that sum.
+struct Row {
+  std::uint16_t sum[ridge::patch_columns];
+  std::uint16_t bar[ridge::patch_columns];
+};
+
+/// Four pixels: a + 2 b + c.
+inline void sum_four(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, std::uint32_t margins,
+                     std::uint16_t* sum, std::uint16_t* bar) {
+  const std::uint32_t wa = load_word(a), wb = load_word(b), wc = load_word(c);
+  const std::uint32_t even = (wa & bytes_02) + 2 * (wb & bytes_02) + (wc & bytes_02);
+  const std::uint32_t odd = (wa >> 8U & bytes_02) + 2 * (wb >> 8U & bytes_02) + (wc >> 8U & bytes_02);
+  const std::uint32_t words[2] = {(even & 0xFFFFU) | odd << 16U, even >> 16U | (odd & 0xFFFF0000U)};
+  for (int i = 0; i < 2; ++i) {
+    const std::uint32_t high = words[i] + (words[i] >> 4U & 0x0FFF0FFFU) + margins;
+    __builtin_memcpy(sum + 2 * i, &words[i], sizeof high);
+    __builtin_memcpy(bar + 2 * i, &high, sizeof high);
+  }
+}
+
+struct Margins {
+  std::uint32_t weak;   // and one: reaching it is being larger
+  std::uint32_t extra;  // that strong asks for beyond weak
+};
+
+/// One row of the block against its sides.
+inline void compare_row(const std::uint16_t* here, const std::uint16_t* before, const std::uint16_t* after,
+                        const Margins& margins, int row, std::uint64_t& weak, std::uint64_t& strong) {
+  std::uint32_t weak_bits = 0, strong_bits = 0;
+  for (int i = 0; i < px; i += 2) {
+    const std::uint32_t sum = load_word(here + i) | tops;
+    const std::uint32_t b = load_word(before + i), a = load_word(after + i);
+    const std::uint32_t found = (sum - b) & (sum - a) & tops;  // the top bit stays where nothing is borrowed
+    if (found == 0) continue;
+    weak_bits |= (found >> 15U & 1U) << i | (found >> 31U) << (i + 1);
+    const std::uint32_t more = (sum - b - margins.extra) & (sum - a - margins.extra) & found;
+    strong_bits |= (more >> 15U & 1U) << i | (more >> 31U) << (i + 1);
+  }
+  if (weak_bits == 0) return;
+  weak |= std::uint64_t{weak_bits} << (8 * row);
+  strong |= std::uint64_t{strong_bits} << (8 * row);
+}
+
+inline int longest(const int (&reaches)[max_ridge_looks], int looks) {
+  int most = 0;
+  for (int k = 0; k < looks; ++k) most = reaches[k] > most ? reaches[k] : most;
+  return most;
+}
+
+inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, const Margins& margins,
+                            RidgeBits& out) {
+  const int reach = longest(block.row_reach, block.row_looks);
+  const int first = (ridge::margin_px - reach) & ~3;
+  const int end = ridge::margin_px + px + reach;
+  for (int r = 0; r < px; ++r) {
+    const std::uint8_t* above = patch.row(block.y0 + r - 1);
+    const std::uint8_t* here = patch.row(block.y0 + r);
+    const std::uint8_t* below = patch.row(block.y0 + r + 1);
+    Row row;
+    for (int i = first; i < end; i += 4) {
+      sum_four(above + i, here + i, below + i, margins.weak, row.sum + i, row.bar + i);
+    }
+    const std::uint16_t* sums = row.sum + ridge::margin_px;
+    const std::uint16_t* bars = row.bar + ridge::margin_px;
+    for (int k = 0; k < block.row_looks; ++k) {
+      compare_row(sums, bars - block.row_reach[k], bars + block.row_reach[k], margins, r, out.row_weak[k],
+                  out.row_strong[k]);
+    }
+  }
+}
+
+inline void look_along_columns(const RidgeBlock& block, const ridge::Patch& patch, const Margins& margins,
+                               RidgeBits& out) {
+  const int reach = longest(block.column_reach, block.column_looks);
+  std::uint16_t sums[ridge::across_rows][px];
+  std::uint16_t bars[ridge::across_rows][px];
+  for (int r = max_ridge_reach_px - reach; r < max_ridge_reach_px + px + reach; ++r) {
+    const std::uint8_t* here = patch.row(block.y0 - max_ridge_reach_px + r) + ridge::margin_px;
+    for (int i = 0; i < px; i += 4) {
+      sum_four(here + i - 1, here + i, here + i + 1, margins.weak, sums[r] + i, bars[r] + i);
+    }
+  }
+  for (int k = 0; k < block.column_looks; ++k) {
+    for (int r = 0; r < px; ++r) {
+      const int at = max_ridge_reach_px + r;
+      compare_row(sums[at], bars[at - block.column_reach[k]], bars[at + block.column_reach[k]], margins, r,
+                  out.column_weak[k], out.column_strong[k]);
+    }
+  }
+}
+
+inline void find_ridges(const RidgeBlock& block, RidgeBits& out) {
+  ridge::Copy copy;
+  const ridge::Patch patch = ridge::make_patch(block, copy);
+  const auto lanes = [](int value) { return static_cast<std::uint32_t>(value) * both_lanes; };
+  const Margins margins = {lanes(block.weak_margin + 1), lanes(block.strong_margin - block.weak_margin)};
+  out = {};
+  if (block.row_looks > 0) look_along_rows(block, patch, margins, out);
+  if (block.column_looks > 0) look_along_columns(block, patch, margins, out);
+}
+
+}  // namespace ridge_words
+}  // namespace
+}  // namespace touchline
