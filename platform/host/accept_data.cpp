@@ -5,6 +5,7 @@
 
 #include "platform/host/accept.h"
 #include "platform/host/evaluate.h"
+#include "platform/host/host_error.h"
 
 namespace touchline::host {
 namespace {
@@ -113,6 +114,13 @@ Figures accept_data_sets(const std::filesystem::path& folder, const Progress& pr
                                               {"render-hard", hard_figures},
                                               {"render-walk", walk_figures},
                                               {"real-kidsize", kidsize_figures}};
+  std::string looked_for;
+  bool found = false;
+  for (const auto& [name, row] : rows) {
+    looked_for += (looked_for.empty() ? "" : ", ") + std::string(name);
+    found = found || std::filesystem::exists(folder / name);
+  }
+  if (!found) throw HostError(folder.string() + ": holds none of the data sets that are judged: " + looked_for);
   Figures figures;
   Gathered all;
   for (const auto& [name, row] : rows) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `touchline accept`.
+#include <filesystem>
+#include <fstream>
 #include <ostream>
 
 #include "platform/host/accept.h"
@@ -7,13 +9,27 @@
 #include "platform/host/host_error.h"
 
 namespace touchline::host {
+namespace {
+
+/// The file stays as it is.
+void check_can_be_written(const std::filesystem::path& file) {
+  const bool is_new = !std::filesystem::exists(file);
+  if (!std::ofstream(file, std::ios::app)) throw HostError(file.string() + ": cannot be written; check the folder");
+  if (is_new) std::filesystem::remove(file);
+}
+
+}  // namespace
 
 int run_accept(const AcceptCommand& command, std::ostream& out, std::ostream& err) {
   if (!std::filesystem::is_directory(command.folder)) {
     throw HostError(command.folder +
                     ": no such folder; give the folder that holds render-table2 and the other data sets");
   }
-  const Progress progress = [&err](const std::string& what) { err << "running " << what << "\n" << std::flush; };
+  // What would fail at the end of the runs is found before them.
+  if (!command.figures.empty() && !command.rewrite) check_figures_file(command.figures);
+  if (command.rewrite) check_can_be_written(command.figures);
+  if (!command.output.empty()) check_can_be_written(command.output);
+  const Progress progress = [&err](const std::string& what) { err << what << "\n" << std::flush; };
   Figures figures = accept_data_sets(command.folder, progress);
   if (command.simulator) {
     const Figures more = accept_simulator(command.runs, progress);

@@ -42,7 +42,8 @@ int run_evaluate(const EvaluateCommand& command, std::ostream& out, std::ostream
 }
 
 int run_locate(const LocateCommand& command, std::ostream& out, std::ostream& err) {
-  DataSet set = read_dataset_toml(command.camera);
+  const std::filesystem::path camera(command.camera);
+  DataSet set = read_dataset_toml(std::filesystem::is_directory(camera) ? camera / "dataset.toml" : camera);
   print_warnings(set, err);
   set.protocol = Protocol::independent;
   for (const auto& image : command.images) {

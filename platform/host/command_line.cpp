@@ -1,52 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arguments of `touchline` (CLI11, in this file alone).
+// The arguments of `touchline`, and what happens with the outcome of a command.
 #include "platform/host/command_line.h"
 
-#include <map>
 #include <ostream>
-#include <sstream>
-
-#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "platform/host/command_simulate.h"
 #include "platform/host/demo.h"
 #include "platform/host/host_error.h"
+#include "platform/host/options.h"
 #include "platform/host/robot_commands.h"
 
 namespace touchline::host {
 namespace {
 
-const std::map<std::string, LocModel> models{{"full", LocModel::full}, {"paper", LocModel::paper}};
-const std::map<std::string, Landmarks> landmark_kinds{
-    {"lines", Landmarks::lines}, {"goalposts", Landmarks::goalposts}, {"both", Landmarks::both}};
+const std::vector<std::string> field_presets{"acyut-5x3", "kidsize-9x6", "small-2026", "middle-2026"};
+const std::vector<std::string> cameras{"fisheye-185", "fisheye-185-qvga", "fisheye-140", "fisheye-140-kb"};
 
-struct WorkSize {
-  std::string text = "320x240";
-  void apply(ChainOptions& chain) const {
-    chain.work_width = text == "640x480" ? 640 : 320;
-    chain.work_height = text == "640x480" ? 480 : 240;
-  }
-};
-
-void add_chain_options(CLI::App& app, EvaluateOptions& options, WorkSize& work) {
-  app.add_option("--landmarks", options.chain.landmarks, "what localization may use")
-      ->transform(CLI::CheckedTransformer(landmark_kinds))
-      ->type_name("lines|goalposts|both")
-      ->default_str("lines");
-  app.add_option("--model", options.chain.model, "full: all the picture has; paper: the paper's method alone")
-      ->transform(CLI::CheckedTransformer(models))
-      ->type_name("full|paper")
-      ->default_str("full");
-  app.add_option("--work", work.text, "working size of the vision chain")
-      ->check(CLI::IsMember({"320x240", "640x480"}))
-      ->type_name("320x240|640x480")
-      ->capture_default_str();
-  app.add_option("--particles", options.chain.particles, "particles of the filter")
-      ->check(CLI::Range(10, max_particles))
-      ->capture_default_str();
-  app.add_option("--seed", options.seed, "seed of the filter's random numbers")->capture_default_str();
-  app.add_flag("!--no-yaw", options.use_yaw, "do not use the IMU's yaw: the half of the field stays open");
-  app.add_option("--frames", options.frames_out, "write an annotated PNG per frame into this folder");
+/// What evaluate and locate have in common.
+void add_chain_options(CLI::App& app, EvaluateOptions& options) {
+  ChainOptions& chain = options.chain;
+  add_choice(
+      app, "--landmarks", {"lines", "goalposts", "both"}, 0,
+      [&chain](std::size_t i) {
+        constexpr Landmarks kinds[] = {Landmarks::lines, Landmarks::goalposts, Landmarks::both};
+        chain.landmarks = kinds[i];
+      },
+      "what localization may use");
+  add_choice(
+      app, "--model", {"full", "paper"}, 0,
+      [&chain](std::size_t i) { chain.model = i == 0 ? LocModel::full : LocModel::paper; },
+      "full: all the picture has; paper: the paper's method alone");
+  add_choice(
+      app, "--work", {"320x240", "640x480"}, 0,
+      [&chain](std::size_t i) {
+        chain.work_width = i == 0 ? 320 : 640;
+        chain.work_height = i == 0 ? 240 : 480;
+      },
+      "working size of the vision chain");
+  add_whole(app, "--particles", chain.particles, 10, max_particles, "particles of the filter");
+  add_whole(app, "--seed", options.seed, "seed of the filter's random numbers");
+  app.add_flag_callback(
+      "--no-yaw", [&options] { options.use_yaw = false; },
+      "do not use the IMU's yaw: the half of the field stays open");
+  add_text(app, "--frames", options.frames_out, "write an annotated PNG per frame into this folder");
 }
 
 constexpr const char* exit_text = "\nExit status: 0 done, 1 a figure or check missed its mark, 2 bad input or usage.";
@@ -58,110 +56,113 @@ struct Commands {
   SimulateCommand simulate;
   DemoCommand demo;
   RobotCommand robot;
-  WorkSize work;
 };
 
-void add_evaluate(CLI::App& app, Commands& commands) {
-  auto* sub = app.add_subcommand("evaluate", "localize every frame of data sets and judge the poses");
-  sub->add_option("DATASET", commands.evaluate.folders, "folders with dataset.toml, frames.jsonl and images")
-      ->required();
-  sub->add_flag("--json", commands.evaluate.json, "one JSON line per frame, then the summary, on standard output");
-  add_chain_options(*sub, commands.evaluate.options, commands.work);
-  sub->footer(std::string("Example: touchline evaluate my-recording --frames out") + exit_text);
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& example) {
+  auto* sub = app.add_subcommand(name, what);
+  sub->footer("Example: touchline " + example + exit_text);
+  return *sub;
 }
 
-void add_locate(CLI::App& app, Commands& commands) {
-  auto* sub = app.add_subcommand("locate", "localize single images, each from nothing");
-  sub->add_option("--camera", commands.locate.camera, "dataset.toml with camera, mount and field")->required();
-  sub->add_option("IMAGE", commands.locate.images, "PNG or JPEG files")->required();
-  sub->add_flag("--json", commands.locate.json, "one JSON line per image, then the summary, on standard output");
-  add_chain_options(*sub, commands.locate.options, commands.work);
-  sub->footer(std::string("Example: touchline locate --camera my-recording/dataset.toml my-recording/images/000.png") +
-              exit_text);
+void add_evaluate(CLI::App& app, EvaluateCommand& command) {
+  CLI::App& sub = add_command(app, "evaluate", "localize every frame of data sets and judge the poses",
+                              "evaluate my-recording --frames out");
+  add_texts(sub, "DATASET", command.folders, "folders with dataset.toml, frames.jsonl and images");
+  sub.add_flag("--json", command.json, "one JSON line per frame, then the summary, on standard output");
+  add_chain_options(sub, command.options);
 }
 
-void add_accept(CLI::App& app, Commands& commands) {
-  AcceptCommand& command = commands.accept;
-  auto* sub = app.add_subcommand("accept", "the acceptance figures beside their targets");
-  sub->add_option("FOLDER", command.folder, "holds render-table2, render-hard, render-walk, real-kidsize")->required();
-  sub->add_option("--figures", command.figures, "fail where a figure is worse than in this file");
-  sub->add_flag("--rewrite", command.rewrite, "write that file anew instead");
-  sub->add_option("--output", command.output, "write the figures of this run as JSON");
-  sub->add_flag("!--no-simulator", command.simulator, "leave the simulator's rows out");
-  sub->add_option("--poses", command.runs.poses, "single poses in the simulator")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  sub->add_option("--walks", command.runs.walks, "walks in the simulator, each field")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  sub->add_option("--threads", command.runs.threads, "runs at the same time")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  sub->footer(std::string("Example: touchline accept data --figures tests/accept/figures.json") + exit_text);
+void add_locate(CLI::App& app, LocateCommand& command) {
+  CLI::App& sub = add_command(app, "locate", "localize single images, each from nothing",
+                              "locate --camera my-recording/dataset.toml my-recording/images/000.png");
+  add_text(sub, "--camera", command.camera, "dataset.toml with camera, mount and field, or its folder")->required();
+  add_texts(sub, "IMAGE", command.images, "PNG or JPEG files");
+  sub.add_flag("--json", command.json, "one JSON line per image, then the summary, on standard output");
+  add_chain_options(sub, command.options);
 }
 
-void add_simulate(CLI::App& app, Commands& commands) {
-  SimulateCommand& command = commands.simulate;
-  auto* sub = app.add_subcommand("simulate", "write simulated frames with exact truth as a data set");
-  sub->add_option("OUT", command.out, "folder to create")->required();
-  sub->add_option("--kind", command.kind, "walk: one run with odometry; poses: single pictures, each from nothing")
-      ->check(CLI::IsMember({"walk", "poses"}))
-      ->type_name("walk|poses")
-      ->capture_default_str();
-  sub->add_option("--field", command.field, "a preset")->capture_default_str();
-  sub->add_option("--camera", command.camera, "fisheye-185, fisheye-185-qvga, fisheye-140 or fisheye-140-kb")
-      ->capture_default_str();
-  sub->add_option("--seed", command.seed, "seed of everything")->capture_default_str();
-  sub->add_option("--seconds", command.seconds, "length of a walk")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str();
-  sub->add_option("--fps", command.frames_per_second, "frames a second of a walk")
-      ->check(CLI::Range(5.0, 100.0))
-      ->capture_default_str();
-  sub->add_option("--count", command.count, "single pictures")->check(CLI::Range(1, 100000))->capture_default_str();
-  sub->add_flag("!--no-yaw", command.yaw, "a robot without an IMU");
-  sub->add_option("--kidnap", command.kidnap_at_s, "seconds into the walk; < 0: none")->capture_default_str();
-  sub->add_option("--jpeg", command.jpeg_quality, "JPEG quality 1 to 100; 0: PNG")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  sub->footer(std::string("Example: touchline simulate my-walk --seconds 20 --kidnap 10 --jpeg 92") + exit_text);
+void add_accept(CLI::App& app, AcceptCommand& command) {
+  CLI::App& sub = add_command(app, "accept", "the acceptance figures beside their targets",
+                              "accept data --figures tests/accept/figures.json");
+  add_text(sub, "FOLDER", command.folder, "holds render-table2, render-hard, render-walk, real-kidsize")->required();
+  add_text(sub, "--figures", command.figures, "fail where a figure is worse than in this file");
+  sub.add_flag("--rewrite", command.rewrite, "write that file anew instead");
+  add_text(sub, "--output", command.output, "write the figures of this run as JSON");
+  sub.add_flag_callback(
+      "--no-simulator", [&command] { command.simulator = false; }, "leave the simulator's rows out");
+  add_whole(sub, "--poses", command.runs.poses, 1, 100000, "single poses in the simulator");
+  add_whole(sub, "--walks", command.runs.walks, 1, 1000, "walks in the simulator, each field");
+  add_whole(sub, "--threads", command.runs.threads, 1, 64, "runs of the simulator at the same time");
 }
 
-void add_demo(CLI::App& app, Commands& commands) {
-  DemoCommand& command = commands.demo;
-  auto* sub =
-      app.add_subcommand("demo", "a simulated robot walks, is kidnapped in the middle, and finds its place again");
-  sub->add_option("--output", command.output, "folder for stages.png, field.png and summary.json")
-      ->capture_default_str();
-  sub->add_option("--seconds", command.seconds, "simulated seconds")
-      ->check(CLI::Range(2.0, 3600.0))
-      ->capture_default_str();
-  sub->add_option("--seed", command.seed, "seed of everything")->capture_default_str();
-  sub->footer(std::string("Example: touchline demo --output demo --seed 7") + exit_text);
+void add_simulate(CLI::App& app, SimulateCommand& command) {
+  CLI::App& sub = add_command(app, "simulate", "write simulated frames with exact truth as a data set",
+                              "simulate my-walk --seconds 20 --kidnap 10 --jpeg 92");
+  add_text(sub, "OUT", command.out, "folder to create")->required();
+  add_choice(sub, "--kind", command.kind, {"walk", "poses"},
+             "walk: one run with odometry; poses: single pictures, each from nothing");
+  add_choice(sub, "--field", command.field, field_presets, "a preset");
+  add_choice(sub, "--camera", command.camera, cameras, "a lens and its picture size");
+  add_whole(sub, "--seed", command.seed, "seed of everything");
+  add_number(sub, "--seconds", command.seconds, 0.1, 3600.0, "length of a walk");
+  add_number(sub, "--fps", command.frames_per_second, 5.0, 100.0, "frames a second of a walk");
+  add_whole(sub, "--count", command.count, 1, 100000, "single pictures");
+  sub.add_flag_callback(
+      "--no-yaw", [&command] { command.yaw = false; }, "a robot without an IMU");
+  add_number(sub, "--kidnap", command.kidnap_at_s, -1.0, 3600.0, "seconds into the walk; < 0: none");
+  add_whole(sub, "--jpeg", command.jpeg_quality, 0, 100, "JPEG quality; 0: PNG");
 }
 
-void add_memory(CLI::App& app) {
-  auto* sub = app.add_subcommand("memory", "what the chain's state takes, struct by struct");
-  sub->footer(std::string("Example: touchline memory") + exit_text);
+void add_demo(CLI::App& app, DemoCommand& command) {
+  CLI::App& sub =
+      add_command(app, "demo", "a simulated robot walks, is kidnapped in the middle, and finds its place again",
+                  "demo --output demo --seed 7");
+  add_text(sub, "--output", command.output, "folder for stages.png, field.png and summary.json");
+  add_number(sub, "--seconds", command.seconds, 2.0, 3600.0, "simulated seconds");
+  add_whole(sub, "--seed", command.seed, "seed of everything");
 }
 
-void add_robot(CLI::App& app, Commands& commands) {
-  RobotCommand& command = commands.robot;
-  auto* run = app.add_subcommand("run", "the robot daemon: frames, odometry and yaw in, a JSON line per pose out");
-  run->add_option("FILE", command.file, "the robot's TOML file")->required();
-  run->add_option("--frames", command.frames, "end after so many frames; 0: run until SIGTERM")->capture_default_str();
-  run->footer(std::string("Example: touchline run /etc/touchline/robot.toml") + exit_text);
-  auto* check = app.add_subcommand("check", "says what is wrong with the robot's TOML file; opens no device");
-  check->add_option("FILE", command.file, "the robot's TOML file")->required();
-  check->footer(std::string("Example: touchline check /etc/touchline/robot.toml") + exit_text);
-  auto* devices =
-      app.add_subcommand("devices", "cameras, HID devices, serial ports and GPIO chips that are plugged in");
-  devices->footer(std::string("Example: touchline devices") + exit_text);
+void add_robot(CLI::App& app, RobotCommand& command) {
+  CLI::App& run = add_command(app, "run", "the robot daemon: frames, odometry and yaw in, a JSON line per pose out",
+                              "run /etc/touchline/robot.toml");
+  add_text(run, "FILE", command.file, "the robot's TOML file")->required();
+  add_whole(run, "--frames", command.frames, "end after so many frames; 0: run until SIGTERM");
+  CLI::App& check = add_command(app, "check", "says what is wrong with the robot's TOML file; opens no device",
+                                "check /etc/touchline/robot.toml");
+  add_text(check, "FILE", command.file, "the robot's TOML file")->required();
+  add_command(app, "devices", "cameras, HID devices, serial ports and GPIO chips that are plugged in", "devices");
+}
+
+/// Options that would be taken without a word, but change nothing beside the others.
+void refuse_meaningless(CLI::App& app, const Commands& commands) {
+  CLI::App& simulate = *app.get_subcommand("simulate");
+  if (commands.simulate.kind == "poses") {
+    for (const char* option : {"--seconds", "--fps", "--kidnap"}) {
+      refuse_option(simulate, option, "is about a walk; leave it out, or choose --kind walk");
+    }
+  } else {
+    refuse_option(simulate, "--count", "is about single pictures; give --seconds, or choose --kind poses");
+    if (commands.simulate.kidnap_at_s > commands.simulate.seconds) {
+      refuse_option(simulate, "--kidnap", "would be after the walk's end; make --seconds longer");
+    }
+  }
+  CLI::App& accept = *app.get_subcommand("accept");
+  if (commands.accept.figures.empty()) {
+    refuse_option(accept, "--rewrite", "needs to know which file; name it by --figures");
+  }
+  for (const char* option : {"--poses", "--walks", "--threads"}) {
+    if (commands.accept.simulator) break;
+    refuse_option(accept, option, "is about the simulator; leave it or --no-simulator out");
+  }
+}
+
+/// Errors of writing show when the stream is emptied, at the latest.
+void check_written(std::ostream& out) {
+  if (out.flush()) return;
+  throw HostError("standard output: could not be written to its end; check the space left where it goes");
 }
 
 int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream& err) {
-  commands.work.apply(commands.evaluate.options.chain);
-  commands.work.apply(commands.locate.options.chain);
   if (app.got_subcommand("evaluate")) return run_evaluate(commands.evaluate, out, err);
   if (app.got_subcommand("locate")) return run_locate(commands.locate, out, err);
   if (app.got_subcommand("accept")) return run_accept(commands.accept, out, err);
@@ -175,6 +176,17 @@ int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream
   return exit_ok;
 }
 
+int parse_and_run(CLI::App& app, int argc, const char* const* argv, Commands& commands, std::ostream& out,
+                  std::ostream& err) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help, out, err);
+  }
+  refuse_meaningless(app, commands);
+  return run(app, commands, out, err);
+}
+
 }  // namespace
 
 int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err, bool terminal) {
@@ -183,18 +195,19 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
   app.footer(std::string("Each command has its own --help with an example.") + exit_text);
   Commands commands;
   commands.demo.live = terminal;
-  add_evaluate(app, commands);
-  add_locate(app, commands);
-  add_accept(app, commands);
-  add_simulate(app, commands);
-  add_demo(app, commands);
-  add_memory(app);
-  add_robot(app, commands);
+  add_evaluate(app, commands.evaluate);
+  add_locate(app, commands.locate);
+  add_accept(app, commands.accept);
+  add_simulate(app, commands.simulate);
+  add_demo(app, commands.demo);
+  add_command(app, "memory", "what the chain's state takes, struct by struct", "memory");
+  add_robot(app, commands.robot);
   try {
-    app.parse(argc, argv);
-    return run(app, commands, out, err);
+    const int status = parse_and_run(app, argc, argv, commands, out, err);
+    check_written(out);
+    return status;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, out, err) == 0 ? exit_ok : exit_bad_input;
+    err << "touchline: " << usage_error(app, error) << "\n";
   } catch (const HostError& error) {
     out << std::flush;
     err << "touchline: " << error.what() << "\n";

@@ -234,7 +234,9 @@ class Demo {
                                             {"wrong_half", wrong_half},
                                             {"outside_3_sigma", outside},
                                             {"us_mean", us}};
-    std::ofstream(file("summary.json")) << summary.dump(2) << "\n";
+    std::ofstream out(file("summary.json"));
+    out << summary.dump(2) << "\n";
+    if (!out.flush()) throw HostError(file("summary.json").string() + ": cannot be written; check the space left");
     char text[200];
     std::snprintf(text, sizeof text, "RMSE %.3f m %.2f deg over %d frames; ", score.rmse_m, score.rmse_deg,
                   score.counted);

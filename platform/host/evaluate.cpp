@@ -92,7 +92,7 @@ void write_overlay(const EvaluateOptions& options, const SetResult& set, const F
   input.truth = record.frame.truth;
   input.particles = chain.particles();
   input.text = panel_text(record, chain.vision());
-  const auto folder = options.frames_out / set.name;
+  const auto folder = std::filesystem::path(options.frames_out) / set.name;
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed)

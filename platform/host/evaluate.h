@@ -7,9 +7,9 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "platform/host/chain.h"
@@ -27,7 +27,7 @@ struct EvaluateOptions {
   ChainOptions chain;
   std::uint64_t seed = 1;
   bool use_yaw = true;
-  std::filesystem::path frames_out;  // empty: no pictures
+  std::string frames_out;  // folder for annotated pictures; empty: none
 };
 
 struct FrameRecord {

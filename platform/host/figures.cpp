@@ -47,6 +47,18 @@ json rounded(double value) {
   return std::round(value * 1e6) / 1e6;
 }
 
+json read_figures(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw HostError(file.string() + ": no such file; write it with --rewrite first");
+  try {
+    json values = json::parse(in).at("figures");
+    if (values.is_object()) return values;
+  } catch (const json::exception& error) {
+    throw HostError(file.string() + ": not a file of figures: " + error.what() + "; write it anew with --rewrite");
+  }
+  throw HostError(file.string() + ": not a file of figures: figures is no table; write it anew with --rewrite");
+}
+
 }  // namespace
 
 void print_figures(std::ostream& out, const Figures& figures) {
@@ -72,18 +84,13 @@ void write_figures(const std::filesystem::path& file, const Figures& figures) {
   for (const auto& figure : figures) values[figure.name] = rounded(figure.value);
   std::ofstream out(file);
   out << json{{"figures", values}}.dump(2) << "\n";
-  if (!out) throw HostError(file.string() + ": cannot be written; check the folder and the space left");
+  if (!out.flush()) throw HostError(file.string() + ": cannot be written; check the folder and the space left");
 }
 
+void check_figures_file(const std::filesystem::path& file) { (void)read_figures(file); }
+
 std::vector<std::string> worse_than_file(const std::filesystem::path& file, const Figures& figures, std::ostream& out) {
-  std::ifstream in(file);
-  if (!in) throw HostError(file.string() + ": no such file; write it with --rewrite first");
-  json values;
-  try {
-    values = json::parse(in).at("figures");
-  } catch (const json::exception& error) {
-    throw HostError(file.string() + ": not a file of figures: " + error.what() + "; write it anew with --rewrite");
-  }
+  const json values = read_figures(file);
   std::vector<std::string> worse;
   for (const auto& [name, old] : values.items()) {
     const auto same = [&key = name](const Figure& f) { return f.name == key; };

@@ -28,8 +28,10 @@ void print_figures(std::ostream& out, const Figures& figures);
 
 /// {"figures": {name: value}}, values rounded to 6 decimals; null for infinity. Throws HostError.
 void write_figures(const std::filesystem::path& file, const Figures& figures);
+/// Throws HostError for a missing or broken file of figures.
+void check_figures_file(const std::filesystem::path& file);
 /// Figures that the file does not know stay out of it; those that only the file knows are told on `out` as not run.
-/// Returns the sentences about figures that are worse than in the file. Throws HostError for a missing or broken file.
+/// Returns the sentences about figures that are worse than in the file. Throws as the above.
 std::vector<std::string> worse_than_file(const std::filesystem::path& file, const Figures& figures, std::ostream& out);
 
 }  // namespace touchline::host

@@ -179,7 +179,7 @@ void write_jpeg(const std::filesystem::path& path, const RgbImage& image, int qu
   if (encoded) {
     std::ofstream out(path, std::ios::binary);
     out.write(reinterpret_cast<const char*>(bytes), static_cast<std::streamsize>(size));
-    written = out.good();
+    written = out.flush().good();
   }
   std::free(bytes);  // libjpeg allocated it by malloc
   if (!encoded) throw HostError(path.string() + ": cannot be encoded as JPEG: " + errors.text);

@@ -78,11 +78,77 @@ TEST_CASE("every command has a help with an example, and help is no error") {
   }
 }
 
-TEST_CASE("bad usage is status 2") {
-  CHECK(run({"evaluate"}).status == 2);
-  CHECK(run({"evaluate", "x", "--work", "100x100"}).status == 2);
-  CHECK(run({"evaluate", "x", "--model", "fuller"}).status == 2);
-  CHECK(run({"fly"}).status == 2);
+TEST_CASE("bad usage is status 2, in one line of the program's own") {
+  check_refused(run({"evaluate"}), "evaluate DATASET is required; see touchline evaluate --help");
+  check_refused(run({"locate", "x.png"}), "locate --camera is required");
+  check_refused(run({"evaluate", "x", "--work", "100x100"}), "evaluate --work 100x100: write 320x240 or 640x480");
+  check_refused(run({"evaluate", "x", "--model", "fuller"}), "write full or paper; did you mean full?");
+  check_refused(run({"evaluate", "x", "--sed", "1"}), "evaluate --sed: no such option; did you mean --seed?");
+  check_refused(run({"evaluate", "x", "--seed"}), "evaluate --seed: its value is missing");
+  check_refused(run({"evaluate", "x", "--seed", "1", "--seed", "2"}), "--seed: is given more than once");
+  check_refused(run({"memory", "3"}), "memory 3: one argument too many");
+  check_refused(run({"fly"}), "fly: no such command; there are evaluate, locate");
+  check_refused(run({"evaluat", "x"}), "evaluat: no such command; did you mean evaluate?");
+  check_refused(run({"--json"}), "--json: no option of the program; options stand after the command");
+}
+
+TEST_CASE("numbers are finite, whole where they count something, and within their range") {
+  for (const char* value : {"nan", "-nan", "inf", "1e999", "1", "3601", "", "5x", "0x10"}) {
+    check_refused(run({"demo", "--seconds", value}), "write a number from 2 to 3600");
+  }
+  for (const char* value : {"-1", "1.5", "", "x", "99999999999999999999"}) {
+    check_refused(run({"demo", "--seed", value}), "demo --seed");
+  }
+  check_refused(run({"evaluate", "x", "--particles", "9"}), "--particles 9: write a whole number from 10 to 1000");
+  check_refused(run({"simulate", "x", "--fps", "nan"}), "simulate --fps nan");
+  check_refused(run({"simulate", "x", "--jpeg", "101"}), "from 0 to 100");
+  check_refused(run({"accept", "x", "--poses", "0"}), "accept --poses 0");
+  check_refused(run({"run", "x", "--frames", "-1"}), "run --frames -1");
+}
+
+TEST_CASE("options that are empty, or have no meaning beside the others, are not taken silently") {
+  check_refused(run({"evaluate", "x", "--frames", ""}), "evaluate --frames \"\": is empty");
+  check_refused(run({"evaluate", ""}), "evaluate DATASET \"\": is empty");
+  check_refused(run({"demo", "--output", ""}), "is empty");
+  for (const char* option : {"--kidnap", "--seconds", "--fps"}) {
+    check_refused(run({"simulate", "x", "--kind", "poses", option, "5"}), "is about a walk");
+  }
+  check_refused(run({"simulate", "x", "--count", "5"}), "is about single pictures");
+  check_refused(run({"simulate", "x", "--seconds", "5", "--kidnap", "6"}), "after the walk's end");
+  check_refused(run({"accept", "x", "--rewrite"}), "name it by --figures");
+  check_refused(run({"accept", "x", "--no-simulator", "--walks", "3"}), "is about the simulator");
+}
+
+TEST_CASE("output to a full device is an error") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const std::string path = folder.path().string();
+  const std::vector<std::vector<std::string>> commands{{"memory"},
+                                                       {"--help"},
+                                                       {"evaluate", path},
+                                                       {"evaluate", path, "--json"},
+                                                       {"locate", "--camera", path, path + "/images/0.png"}};
+  for (const auto& command : commands) {
+    CAPTURE(command.front());
+    std::vector<const char*> argv{"touchline"};
+    for (const auto& a : command) argv.push_back(a.c_str());
+    std::ofstream full("/dev/full");
+    std::ostringstream err;
+    CHECK(touchline_main(static_cast<int>(argv.size()), argv.data(), full, err) == 2);
+    CHECK(contains(err.str(), "touchline: standard output: could not be written to its end"));
+  }
+}
+
+TEST_CASE("accept finds what would fail at the end before it runs anything") {
+  const TempFolder folder;
+  const std::string path = folder.path().string();
+  check_refused(run({"accept", path, "--figures", path + "/missing.json"}), "missing.json: no such file");
+  folder.write("broken.json", "{\"figures\": 3}");
+  check_refused(run({"accept", path, "--figures", path + "/broken.json"}), "not a file of figures");
+  check_refused(run({"accept", path, "--output", path + "/none/x.json"}), "none/x.json: cannot be written");
+  check_refused(run({"accept", path, "--output", path + "/x.json"}),
+                "holds none of the data sets that are judged: render-table2, render-hard, render-walk, real-kidsize");
+  CHECK_FALSE(std::filesystem::exists(path + "/x.json"));
 }
 
 TEST_CASE("evaluate --json prints one line a frame with the documented keys, then the summary") {
@@ -137,6 +203,7 @@ TEST_CASE("locate needs no frames.jsonl") {
                 "smaller than the working size 640x480");
   check_refused(run({"locate", "--camera", camera, image + "x"}), "no such image");
   check_refused(run({"locate", "--camera", image, image}), "not valid TOML");
+  CHECK(run({"locate", "--camera", folder.path().string(), image}).status == 0);  // the folder will do
 }
 
 TEST_CASE("every kind of bad input is one clear line and status 2") {

@@ -69,6 +69,10 @@ std::ofstream open_file(const std::filesystem::path& path) {
   return out;
 }
 
+void finish_file(std::ofstream& out, const std::filesystem::path& path) {
+  if (!out.flush()) throw host::HostError(path.string() + ": cannot be written to its end; is the disk full?");
+}
+
 }  // namespace
 
 DataSetWriter::DataSetWriter(const std::filesystem::path& folder, const DataSetHead& head)
@@ -100,6 +104,7 @@ void DataSetWriter::write_head() const {
       << "\nroll_deg = " << degrees(head_.mount.roll) << "\n\n[imu]\ngoal_yaw_deg = " << degrees(head_.goal_yaw)
       << "\n";
   if (head_.field_name.empty()) write_field(out, head_.field);
+  finish_file(out, folder_ / "dataset.toml");
 }
 
 void DataSetWriter::write_image(const SimFrame& frame, const std::string& name) const {
@@ -127,8 +132,10 @@ void DataSetWriter::write_expected(const SimFrame& frame, const Scene& scene, co
     if (mark.type == "G") entry["front_foot_px"] = pixel(mark.front_foot_px);
     list.push_back(entry);
   }
-  std::ofstream out = open_file(folder_ / "expected" / (number + ".json"));
+  const auto path = folder_ / "expected" / (number + ".json");
+  std::ofstream out = open_file(path);
   out << Json{{"image", image}, {"landmarks", list}}.dump(1) << "\n";
+  finish_file(out, path);
 }
 
 void DataSetWriter::add(const SimFrame& frame, const Scene& scene, const Lens& lens) {
@@ -156,8 +163,7 @@ void DataSetWriter::add(const SimFrame& frame, const Scene& scene, const Lens& l
       {"x_m", metres(frame.truth.x)}, {"y_m", metres(frame.truth.y)}, {"theta_deg", in_degrees(frame.truth.theta)}};
   if (frame.kidnapped) line["truth"]["kidnap"] = true;
   lines_ << line.dump() << "\n";
-  if (!lines_.flush())
-    throw host::HostError((folder_ / "frames.jsonl").string() + ": cannot be written; is the disk full?");
+  finish_file(lines_, folder_ / "frames.jsonl");
   count_ += 1;
 }
 
