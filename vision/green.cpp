@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/hsv.h"
@@ -26,19 +27,25 @@ std::int32_t percentile(const Histogram& histogram, std::int32_t samples, std::i
 
 struct Sample {
   std::int32_t luma, cb, cr;  // chroma as differences from grey
-  Hsv hsv;
-  int x, y;  // working pixel
+  int x, y;                   // working pixel
+  bool inner;                 // the pixels to the left and to the right are in the mask, too
 };
-/// Every second chroma sample of each direction whose pixel sees ground.
+/// Every second chroma sample of each direction whose pixel is in the mask. `around` is a mask that holds this one.
 template <typename Visit>
-void for_each_sample(const ConstYuv420View& image, ConstBitView ground, Visit visit) {
+void for_each_sample(const ConstYuv420View& image, ConstBitView mask, ConstBitView around, Visit visit) {
+  constexpr BitWord every_fourth = 0x4444444444444444U;  // pixels 2, 6, 10, ...: never a word's first or last
+  const int words = words_for(mask.width);
   for (int y = 1; y < image.cb.height; y += 2) {
-    for (int x = 1; x < image.cb.width; x += 2) {
-      if (!ground.get(2 * x, 2 * y)) continue;
-      const std::uint8_t luma = image.y.at(2 * x, 2 * y);
-      const std::uint8_t cb = image.cb.at(x, y);
-      const std::uint8_t cr = image.cr.at(x, y);
-      visit(Sample{luma, cb - 128, cr - 128, hsv_from_ycbcr(luma, cb, cr), 2 * x, 2 * y});
+    const std::uint8_t* luma = image.y.row(2 * y);
+    const std::uint8_t* cb = image.cb.row(y);
+    const std::uint8_t* cr = image.cr.row(y);
+    for (int i = 0; i < words; ++i) {
+      const BitWord inner = around.row(2 * y)[i] << 1 & around.row(2 * y)[i] >> 1;
+      for (BitWord left = mask.row(2 * y)[i] & every_fourth; left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        const int x = i * bits_per_word + bit;
+        visit(Sample{luma[x], cb[x / 2] - 128, cr[x / 2] - 128, x, 2 * y, ((inner >> bit) & 1U) != 0});
+      }
     }
   }
 }
@@ -70,10 +77,12 @@ void measure_colour(const ConstYuv420View& image, ConstBitView ground, const Hsv
   Histogram hues{};
   Histogram saturations{};
   std::int32_t samples = 0;
-  for_each_sample(image, ground, [&](const Sample& s) {
-    if (!in_range(s.hsv, gate)) return;
-    ++hues[s.hsv.hue];
-    ++saturations[s.hsv.saturation];
+  for_each_sample(image, ground, ground, [&](const Sample& s) {
+    const Hsv hsv = hsv_from_ycbcr(static_cast<std::uint8_t>(s.luma), static_cast<std::uint8_t>(s.cb + 128),
+                                   static_cast<std::uint8_t>(s.cr + 128));
+    if (!in_range(hsv, gate)) return;
+    ++hues[hsv.hue];
+    ++saturations[hsv.saturation];
     ++samples;
   });
   carpet.samples = samples;
@@ -84,11 +93,10 @@ void measure_colour(const ConstYuv420View& image, ConstBitView ground, const Hsv
   carpet.green.saturation_low = static_cast<std::uint8_t>(std::max<std::int32_t>(half_median, gate.saturation_low));
 }
 
-/// Medians of the chroma ratios, luma of the shadows, noise: from the samples inside today's range.
-void measure_ratios(const ConstYuv420View& image, ConstBitView ground, CarpetModel& carpet) {
+/// Medians of the chroma ratios, luma of the shadows, noise: from the samples inside today's range, `green`.
+void measure_ratios(const ConstYuv420View& image, ConstBitView ground, ConstBitView green, CarpetModel& carpet) {
   std::int32_t sum_cb = 0, sum_cr = 0, samples = 0;
-  for_each_sample(image, ground, [&](const Sample& s) {
-    if (!in_range(s.hsv, carpet.green)) return;
+  for_each_sample(image, green, ground, [&](const Sample& s) {
     sum_cb += s.cb;
     sum_cr += s.cr;
     ++samples;
@@ -107,14 +115,13 @@ void measure_ratios(const ConstYuv420View& image, ConstBitView ground, CarpetMod
   Histogram chroma{};
   Histogram lumas{};
   std::int32_t roughness = 0, rough_samples = 0;
-  for_each_sample(image, ground, [&](const Sample& s) {
-    if (!in_range(s.hsv, carpet.green)) return;
+  for_each_sample(image, green, ground, [&](const Sample& s) {
     const std::int32_t luma = std::max<std::int32_t>(s.luma, 1);
     const std::int32_t along = s.cb * carpet.axis_cb + s.cr * carpet.axis_cr;  // 2^-8
     ++greenness[static_cast<std::size_t>(std::clamp<std::int32_t>(along / luma, 0, 255))];
     ++chroma[static_cast<std::size_t>(std::min<std::int32_t>((magnitude(s.cb) + magnitude(s.cr)) * 256 / luma, 255))];
     ++lumas[static_cast<std::size_t>(s.luma)];
-    if (s.x + 1 < image.y.width && ground.get(s.x - 1, s.y) && ground.get(s.x + 1, s.y)) {
+    if (s.inner) {
       const std::uint8_t* row = image.y.row(s.y);
       // Clipped, so that a line's edge does not count as noise.
       roughness += std::min<std::int32_t>(magnitude(2 * row[s.x] - row[s.x - 1] - row[s.x + 1]), 32);
@@ -130,53 +137,34 @@ void measure_ratios(const ConstYuv420View& image, ConstBitView ground, CarpetMod
 
 }  // namespace
 
-CarpetModel measure_carpet(const ConstYuv420View& image, ConstBitView ground, const HsvRange& gate) {
+CarpetModel measure_carpet(const ConstYuv420View& image, ConstBitView ground, const HsvRange& gate, BitView green,
+                           const Kernels& kernels) {
   CarpetModel carpet;
   carpet.green = gate;
   measure_colour(image, ground, gate, carpet);
-  if (carpet.samples > 0) measure_ratios(image, ground, carpet);
+  if (carpet.samples > 0) {
+    hsv_in_range(image, carpet.green, ground, green, kernels);
+    measure_ratios(image, ground, green, carpet);
+  }
+  if (carpet.samples == 0) clear(green);
   return carpet;
 }
 
-void find_green(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView green) {
+void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView white,
+                const Kernels& kernels) {
   if (carpet.samples == 0) {
-    clear(green);
+    clear(white);
     return;
   }
-  hsv_in_range(image, carpet.green, ground, green);
-}
-
-void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView white) {
-  clear(white);
-  if (carpet.samples == 0) return;
   // Little more than half of the carpet's greenness and three quarters of its chroma: in warm light white has a colour
   // of its own, but not the carpet's; a yellow post or an orange ball has more.
-  const std::int32_t per_green = 65536 / std::max<std::int32_t>(carpet.greenness_ratio * 9 / 16, 1);
-  const std::int32_t per_chroma = 65536 / std::max<std::int32_t>(carpet.chroma_ratio * 3 / 4, 1);
-  std::array<std::uint8_t, max_hsv_width / 2> low{};
-  std::array<std::uint8_t, max_hsv_width / 2> high{};
-  high.fill(255);
-  for (int y = 0; y < image.y.height; ++y) {
-    if (y % 2 == 0) {
-      const std::uint8_t* cb_row = image.cb.row(y / 2);
-      const std::uint8_t* cr_row = image.cr.row(y / 2);
-      for (int x = 0; x < image.cb.width; ++x) {
-        // Of 32 samples that no pixel of the ground asks for, none is needed.
-        if (x % 32 == 0 && (ground.row(y)[x / 32] | ground.row(std::min(y + 1, image.y.height - 1))[x / 32]) == 0) {
-          x += 31;
-          continue;
-        }
-        const std::int32_t cb = cb_row[x] - 128;
-        const std::int32_t cr = cr_row[x] - 128;
-        const std::int32_t along = std::max<std::int32_t>((cb * carpet.axis_cb + cr * carpet.axis_cr) / 256, 0);
-        const std::int32_t by_green = along * per_green / 256;
-        const std::int32_t by_chroma = (magnitude(cb) + magnitude(cr)) * per_chroma / 256;
-        const std::int32_t least = std::max({carpet.shadow_luma, by_green, by_chroma});
-        low[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(std::min<std::int32_t>(least, 255));
-      }
-    }
-    luma_in_range(image.y.row(y), low.data(), high.data(), ground, y, white.row(y));
-  }
+  CarpetLimits limits;
+  limits.per_green = 65536 / std::max<std::int32_t>(carpet.greenness_ratio * 9 / 16, 1);
+  limits.per_chroma = 65536 / std::max<std::int32_t>(carpet.chroma_ratio * 3 / 4, 1);
+  limits.axis_cb = carpet.axis_cb;
+  limits.axis_cr = carpet.axis_cr;
+  limits.shadow_luma = carpet.shadow_luma;
+  for_band_rows(image, ground, white, [&](const BandRows& rows) { kernels.white_rows(limits, rows); });
 }
 
 }  // namespace touchline

@@ -24,14 +24,14 @@ struct CarpetModel {
   std::int32_t samples = 0;          // 0: no carpet in view, and nothing else is meaningful
 };
 
-/// Looks at every second chroma sample of `ground`. Integer; about 15,000 samples at 640x480.
-CarpetModel measure_carpet(const ConstYuv420View& image, ConstBitView ground, const HsvRange& gate);
-
-/// Pixels of `ground` in the carpet's colour -> `green`. `samples` == 0 clears it.
-void find_green(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView green);
+/// Looks at every second chroma sample of `ground`; integer; about 15,000 samples at 640x480. `green` is set to the
+/// pixels of `ground` in the carpet's colour; to none when `samples` is 0.
+CarpetModel measure_carpet(const ConstYuv420View& image, ConstBitView ground, const HsvRange& gate, BitView green,
+                           const Kernels& kernels = portable_kernels());
 
 /// Pixels of `ground` that lack the carpet's colour and any other strong one, and are no shadow -> `white`: lines, but
 /// also grey floor, robots and the ball. A line is what is of its width, between green.
-void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView white);
+void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetModel& carpet, BitView white,
+                const Kernels& kernels = portable_kernels());
 
 }  // namespace touchline

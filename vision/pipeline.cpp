@@ -54,7 +54,8 @@ Status refuse(const char** what, const char* key) {
 bool odd_kernel(int side) { return side >= 1 && side <= 31 && side % 2 == 1; }
 
 Status check(const VisionConfig& c, const char** what) {
-  if (c.kernels.find_ridges == nullptr) return refuse(what, "kernels");
+  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr)
+    return refuse(what, "kernels");
   if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
   if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
   if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");
@@ -175,9 +176,8 @@ void Pipeline::find_green_stage(VisionResult& result) {
   make_ground_mask(views_.rays, pose, config_.max_range_m, views_.mask(MaskId::seen), ground);
   make_line_width_table(views_.rays, pose, config_.line_width_m, views_.line_widths);
   result.line_widths = views_.line_widths;
-  carpet_ = measure_carpet(result.mean, ground, config_.green);
-  find_green(result.mean, ground, carpet_, views_.mask(MaskId::green));
-  find_white(result.mean, ground, carpet_, views_.mask(MaskId::white));
+  carpet_ = measure_carpet(result.mean, ground, config_.green, views_.mask(MaskId::green), config_.kernels);
+  find_white(result.mean, ground, carpet_, views_.mask(MaskId::white), config_.kernels);
   // What is white between green belongs to the field, or a wide line would cut it in two.
   const BitView& candidates = views_.mask(MaskId::candidates);
   clear(candidates);
@@ -305,7 +305,7 @@ void Pipeline::find_features(VisionResult& result) {
 void Pipeline::find_post_colour(const VisionResult& result) {
   const BitView& colour = views_.mask(MaskId::post_colour);
   hsv_in_range(result.mean, config_.white_posts ? config_.white_post : config_.yellow_post, views_.mask(MaskId::seen),
-               colour);
+               colour, config_.kernels);
 }
 
 void Pipeline::find_goal_posts(VisionResult& result) {

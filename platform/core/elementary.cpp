@@ -135,6 +135,4 @@ float log(float x) {
   return n * 0.693145751953125F + (2.0F * s + (p + n * 1.4286068203094173e-6F));
 }
 
-float hypot(float x, float y) { return sqrt(x * x + y * y); }
-
 }  // namespace touchline::math

@@ -23,7 +23,6 @@ float asin(float x);            // absolute error < 4e-7; x is clamped to [-1, 1
 float acos(float x);            // absolute error < 4e-7; x is clamped to [-1, 1]
 float exp(float x);             // relative error < 3e-7; below -87: 0; above 88: 3.4e38
 float log(float x);             // error < 2e-7 + 1e-7 |log x|; below the smallest normal number: its log, -87.33655
-float hypot(float x, float y);  // sqrt(x*x + y*y), no protection against overflow
 
 /// Both at the price of one.
 struct SinCos {
@@ -32,7 +31,9 @@ struct SinCos {
 };
 SinCos sin_cos(float radians);
 
-inline float abs(float x) { return x < 0.0F ? -x : x; }
+inline float abs(float x) { return __builtin_fabsf(x); }  // clears the sign bit: one instruction
+/// sqrt(x*x + y*y), no protection against overflow.
+inline float hypot(float x, float y) { return __builtin_sqrtf(x * x + y * y); }
 inline float min(float a, float b) { return b < a ? b : a; }
 inline float max(float a, float b) { return a < b ? b : a; }
 inline float clamp(float x, float low, float high) { return min(max(x, low), high); }

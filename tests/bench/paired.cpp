@@ -160,7 +160,7 @@ class PairedRun {
   GivenToOpenCv what_opencv_is_given(const View& view) {
     const VisionConfig& config = chain_->pipeline.config();
     make_ground_mask(grid_, view.mount, config.max_range_m, seen_.view(), ground_.view());
-    const CarpetModel carpet = measure_carpet(chain_->vision.mean, ground_.view(), config.green);
+    const CarpetModel carpet = measure_carpet(chain_->vision.mean, ground_.view(), config.green, scratch_mask_.view());
     GivenToOpenCv given;
     given.green = carpet.green;
     given.white_saturation = std::max(carpet.green.saturation_low - 1, 0);
@@ -227,7 +227,7 @@ class PairedRun {
   OpenCvChain opencv_;
   std::vector<Vec3> rays_;
   RayGridView grid_;
-  BitImage<width, height> seen_, ground_, thinned_;
+  BitImage<width, height> seen_, ground_, thinned_, scratch_mask_;
   std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(height))> scratch_{};
   std::vector<std::uint8_t> target_;
 

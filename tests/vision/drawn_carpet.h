@@ -62,11 +62,10 @@ struct Drawing {
     widths.assign(static_cast<std::size_t>(((w + 7) / 8) * ((h + 7) / 8)), width);
     Bits all(w, h);
     fill(all.view());
-    carpet = measure_carpet(image(), all.view(), {35, 90, 40, 255, 10, 255});
+    carpet = measure_carpet(image(), all.view(), {35, 90, 40, 255, 10, 255}, green.view());
     REQUIRE(carpet.samples > 0);
     carpet.noise = 16;
     carpet.shadow_luma = 40;
-    find_green(image(), all.view(), carpet, green.view());
     find_white(image(), all.view(), carpet, white.view());
   }
   [[nodiscard]] ConstYuv420View image() const {

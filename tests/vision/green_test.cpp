@@ -28,8 +28,7 @@ Masks look(const Scene& scene) {
   Bits ground(w, h);
   for (int y = 120; y < h; ++y) set_span(ground.view(), y, 40, 280, true);
   Masks m;
-  m.carpet = measure_carpet(image.view(), ground.view(), VisionConfig{}.green);
-  find_green(image.view(), ground.view(), m.carpet, m.green.view());
+  m.carpet = measure_carpet(image.view(), ground.view(), VisionConfig{}.green, m.green.view());
   find_white(image.view(), ground.view(), m.carpet, m.white.view());
   return m;
 }

@@ -7,8 +7,12 @@
 // comparisons a pixel.
 #pragma once
 
+#include <algorithm>
+
 #include "vision/image/bit_image.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
+#include "vision/image/luma_bands.h"
 
 namespace touchline {
 
@@ -34,47 +38,42 @@ struct Hsv {
 /// One working row: `width` luma samples, (width + 1) / 2 of each chroma; a chroma sample is that of both its pixels.
 void hsv_row(const std::uint8_t* y, const std::uint8_t* cb, const std::uint8_t* cr, int width, Hsv* out);
 
-/// The luma that a chroma sample leaves to a range; empty when low > high.
-struct LumaBand {
-  std::uint8_t low = 255;
-  std::uint8_t high = 0;
-};
-
 /// A range made ready. luma_range() agrees with in_range(hsv_from_ycbcr()) for all 2^24 inputs.
 class HsvFilter {
  public:
   explicit HsvFilter(const HsvRange& range);
   [[nodiscard]] LumaBand luma_range(std::uint8_t cb, std::uint8_t cr) const;
-  /// The same for a row of chroma samples.
-  void luma_ranges(const std::uint8_t* cb, const std::uint8_t* cr, int count, std::uint8_t* low,
-                   std::uint8_t* high) const;
+  /// For the kernels.
+  [[nodiscard]] const HsvBandPlan& plan() const { return plan_; }
 
  private:
-  /// Sign of a * cb + b * cr, chroma as differences from 128: on which side of a hue the chroma lies.
-  struct HalfPlane {
-    std::int32_t a = 0, b = 0;
-  };
-  static HalfPlane at_hue(int half_units);
+  static ChromaHalfPlane at_hue(int half_units);
 
-  HalfPlane from_;     // >= 0: at or past the range's first hue, as far as half a turn goes
-  HalfPlane to_;       // < 0: before the end of its last hue
-  bool wide_ = false;  // more than half a turn: one of both is enough
-  bool any_hue_ = false;
-  std::int32_t divisor_low_ = 0, divisor_high_ = 0;  // 2 S - 1 and 2 S + 1; 0: no bound
-  std::uint32_t reciprocal_low_ = 0, reciprocal_high_ = 0;
-  std::int32_t value_low_ = 0, value_high_ = 0;
-  LumaBand neutral_;  // for gray, which has no hue
+  HsvBandPlan plan_;
 };
 
 /// out = pixels of the region whose colour is in the range. Both masks have the size of the luma plane.
-/// Widths up to max_hsv_width.
-inline constexpr int max_hsv_width = 1280;
-void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBitView region, BitView out);
+void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBitView region, BitView out,
+                  const Kernels& kernels = portable_kernels());
 
-/// Bits of one row: low[x / 2] <= y[x] <= high[x / 2], and inside the region. For filters whose luma ranges come from
-/// elsewhere. The ranges need not be there where neither this row of the region nor its partner's has a pixel of a
-/// word.
-void luma_in_range(const std::uint8_t* y, const std::uint8_t* low, const std::uint8_t* high, ConstBitView region,
-                   int row, BitWord* out);
+/// Calls rows(BandRows) for each row of chroma and the one or two of luma that it belongs to.
+template <typename Rows>
+void for_band_rows(const ConstYuv420View& picture, ConstBitView region, BitView out, Rows rows) {
+  assert(picture.y.width == out.width && picture.y.height == out.height && region.width == out.width);
+  for (int y = 0; y < out.height; y += 2) {
+    const int below = std::min(y + 1, out.height - 1);
+    BandRows two;
+    two.cb = picture.cb.row(y / 2);
+    two.cr = picture.cr.row(y / 2);
+    two.y[0] = picture.y.row(y);
+    two.y[1] = picture.y.row(below);
+    two.region[0] = region.row(y);
+    two.region[1] = region.row(below);
+    two.out[0] = out.row(y);
+    two.out[1] = out.row(below);
+    two.width = out.width;
+    rows(two);
+  }
+}
 
 }  // namespace touchline

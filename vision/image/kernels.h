@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "vision/image/colour_matrix.h"
+#include "vision/image/luma_bands.h"
 #include "vision/image/ridge_block.h"
 
 namespace touchline {
@@ -32,12 +33,16 @@ struct Kernels {
   const char* name = nullptr;
   void (*halve_rows)(const HalvedRows& rows) = nullptr;  // null: not offered
   void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
+  void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
+  void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
 };
 
 /// For every processor.
 [[nodiscard]] Kernels portable_kernels();
 /// Those of processors without vector registers, for the tests elsewhere.
 [[nodiscard]] Kernels word_kernels();
+/// One sample of hsv_rows().
+[[nodiscard]] LumaBand portable_band(const HsvBandPlan& plan, std::uint8_t cb, std::uint8_t cr);
 
 /// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
 /// instructions (platform/processor).

@@ -2,7 +2,6 @@
 // HSV against the definition in double precision by way of RGB, and the filter against the definition, for every colour
 // there is.
 #include "vision/image/hsv.h"
-#include "vision/image/luma_window.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
 
 using namespace touchline;
@@ -103,28 +103,8 @@ TEST_CASE("the luma range of a chroma sample holds exactly the pixels that are i
   }
 }
 
-TEST_CASE("processors with and without vector registers see the same lumas in the window") {
-  std::mt19937 random(8);
-  for (int round = 0; round < 400; ++round) {
-    std::array<std::uint8_t, 64> y;
-    std::array<std::uint8_t, 32> low, high;
-    for (std::uint8_t& v : y) v = static_cast<std::uint8_t>(random());
-    for (std::uint8_t& v : low) v = static_cast<std::uint8_t>(random() % (round % 3 == 0 ? 256 : 130));
-    for (std::uint8_t& v : high) v = static_cast<std::uint8_t>(round % 3 == 0 ? random() : 255 - random() % 130);
-    const int used = round % 2 == 0 ? 64 : static_cast<int>(random() % 65);
-    const BitWord by_words = luma_window_by_words(y.data(), low.data(), high.data(), used);
-    REQUIRE(by_words == luma_window_by_vectors(y.data(), low.data(), high.data(), used));
-    for (int i = 0; i < 64; ++i) {
-      const auto x = static_cast<std::size_t>(i);
-      const bool inside = i < used && low[x / 2] <= y[x] && y[x] <= high[x / 2];
-      REQUIRE(((by_words >> i) & 1U) == (inside ? 1U : 0U));
-    }
-  }
-}
-
-TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every size") {
+void check_mask(const Kernels& kernels, const HsvRange& range) {
   std::mt19937 random(2);
-  const HsvRange range = {20, 110, 40, 255, 30, 240};
   for (const auto& [w, h] : awkward_sizes()) {
     Gray y(w, h), cb((w + 1) / 2, (h + 1) / 2), cr((w + 1) / 2, (h + 1) / 2);
     for (Gray* plane : {&y, &cb, &cr}) {
@@ -135,7 +115,7 @@ TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every si
     for (int v = 0; v < h; ++v) {
       for (int u = 0; u < w; ++u) region.view().set(u, v, (u / 64 + v / 3) % 2 == 0 && random() % 4 != 0);
     }
-    hsv_in_range({y.view(), cb.view(), cr.view()}, range, region.view(), mask.view());
+    hsv_in_range({y.view(), cb.view(), cr.view()}, range, region.view(), mask.view(), kernels);
     std::vector<Hsv> row(static_cast<std::size_t>(w));
     for (int v = 0; v < h; ++v) {
       hsv_row(y.view().row(v), cb.view().row(v / 2), cr.view().row(v / 2), w, row.data());
@@ -145,5 +125,12 @@ TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every si
       }
     }
     CHECK(padding_is_clear(mask.view()));
+  }
+}
+
+TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every size, with every table of kernels") {
+  for (const HsvRange& range :
+       {HsvRange{20, 110, 40, 255, 30, 240}, {0, 179, 0, 255, 40, 200}, {150, 70, 0, 90, 0, 255}, {50, 51, 9, 200}}) {
+    for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) check_mask(kernels, range);
   }
 }

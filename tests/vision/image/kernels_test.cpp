@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -117,6 +119,46 @@ TEST_CASE("ridges are those of the definition, with every table of kernels") {
   check_ridges(portable_kernels());
   check_ridges(word_kernels());
   check_ridges(fastest_kernels());
+}
+
+/// White of one row by its definition.
+bool is_white(const CarpetLimits& limits, int luma, int cb, int cr) {
+  const int along = std::max((cb * limits.axis_cb + cr * limits.axis_cr) / 256, 0);
+  const int by_chroma = (std::abs(cb) + std::abs(cr)) * limits.per_chroma / 256;
+  return luma >= std::min(std::max({limits.shadow_luma, along * limits.per_green / 256, by_chroma}), 255);
+}
+
+void check_white(const Kernels& kernels, int width) {
+  const auto samples = static_cast<std::size_t>(width);
+  const auto luma = noise(2 * samples, 11);
+  auto chroma = noise(2 * samples, 12);
+  for (std::uint8_t& c : chroma) c = static_cast<std::uint8_t>(118 + c % 24);
+  std::vector<std::uint64_t> region((samples + 63) / 64, ~std::uint64_t{0});
+  if (width % 64 != 0) region.back() >>= 64 - width % 64;
+  std::vector<std::uint64_t> upper(region.size()), lower(region.size());
+  const CarpetLimits limits = {-200, -256, 500, 700, 40};
+  kernels.white_rows(limits, {chroma.data(),
+                              chroma.data() + samples,
+                              {luma.data(), luma.data() + samples},
+                              {region.data(), region.data()},
+                              {upper.data(), lower.data()},
+                              width});
+  for (int x = 0; x < width; ++x) {
+    const auto at = static_cast<std::size_t>(x);
+    const int cb = chroma[at / 2] - 128;
+    const int cr = chroma[samples + at / 2] - 128;
+    REQUIRE(((upper[at / 64] >> (at % 64)) & 1U) == (is_white(limits, luma[at], cb, cr) ? 1 : 0));
+    REQUIRE(((lower[at / 64] >> (at % 64)) & 1U) == (is_white(limits, luma[samples + at], cb, cr) ? 1 : 0));
+  }
+}
+
+TEST_CASE("white is that of the definition, with every table of kernels") {
+  for (const int width : {1, 63, 64, 65, 95, 320}) {
+    CAPTURE(width);
+    check_white(portable_kernels(), width);
+    check_white(word_kernels(), width);
+    check_white(fastest_kernels(), width);
+  }
 }
 
 }  // namespace
