@@ -43,7 +43,9 @@ SetResult run(const DataSet& set, LocModel model, Landmarks landmarks) {
   EvaluateOptions options;
   options.chain.model = model;
   options.chain.landmarks = landmarks;
-  return evaluate(set, options);
+  return evaluate(set, options, [](const FrameRecord& record) {  // no figure over fewer frames than are told
+    if (!record.failure.empty()) throw HostError(record.failure);
+  });
 }
 
 void table2_figures(const DataSet& set, Figures& out, Gathered& all) {

@@ -108,7 +108,7 @@ const VisionResult& Chain::see(const FrameView& image, double time_s, const Came
   input.camera = camera.mount;
   input.odometry = odometry;
   const Status status = parts_->pipeline.process(input, parts_->vision, observer);
-  if (status != Status::ok) throw HostError(std::string("vision refuses a frame: ") + touchline::to_string(status));
+  if (status != Status::ok) throw FrameError(std::string("vision refuses a frame: ") + touchline::to_string(status));
   return parts_->vision;
 }
 
@@ -116,7 +116,7 @@ PoseEstimate Chain::locate(const LocalizerInput& input, StageObserver* observer)
   PoseEstimate estimate;
   const Status status = parts_->localizer.update(input, parts_->vision, estimate, observer);
   if (status != Status::ok)
-    throw HostError(std::string("localization refuses a frame: ") + touchline::to_string(status));
+    throw FrameError(std::string("localization refuses a frame: ") + touchline::to_string(status));
   return estimate;
 }
 

@@ -32,6 +32,7 @@ class Chain {
 
   /// A start from nothing: empties the FIFO, draws the particles anew.
   void forget(std::uint64_t seed);
+  /// Both throw FrameError for a frame that is refused.
   /// Vision on one frame; the result is valid until the next call.
   const VisionResult& see(const FrameView& image, double time_s, const CameraSetup& camera, const Pose2& odometry,
                           StageObserver* observer);

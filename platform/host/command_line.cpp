@@ -74,9 +74,17 @@ void add_evaluate(CLI::App& app, EvaluateCommand& command) {
 
 void add_locate(CLI::App& app, LocateCommand& command) {
   CLI::App& sub = add_command(app, "locate", "localize single images, each from nothing",
-                              "locate --camera my-recording/dataset.toml my-recording/images/000.png");
-  add_text(sub, "--camera", command.camera, "dataset.toml with camera, mount and field, or its folder")->required();
+                              "locate --camera my-robot/dataset.toml --pitch-deg 31.5 --yaw-deg 12 picture.png");
+  add_text(sub, "--camera", command.camera,
+           "dataset.toml with camera, mount and field, or its folder; images that frames.jsonl beside it lists are "
+           "taken with their line's mount and yaw")
+      ->required();
   add_texts(sub, "IMAGE", command.images, "PNG or JPEG files");
+  add_number(sub, "--height-m", command.height_m, 0.01, 10.0, "the camera's height above the carpet");
+  add_number(sub, "--pitch-deg", command.pitch_deg, -360.0, 360.0, "the camera's pitch, > 0 looks down");
+  add_number(sub, "--roll-deg", command.roll_deg, -360.0, 360.0, "the camera's roll, > 0 lowers the right side");
+  add_number(sub, "--yaw-deg", command.yaw_deg, -36000.0, 36000.0,
+             "what the IMU reads, as imu_yaw_deg; without a yaw the half of the field stays open");
   sub.add_flag("--json", command.json, "one JSON line per image, then the summary, on standard output");
   add_chain_options(sub, command.options);
 }
@@ -145,6 +153,9 @@ void refuse_meaningless(CLI::App& app, const Commands& commands) {
     if (commands.simulate.kidnap_at_s > commands.simulate.seconds) {
       refuse_option(simulate, "--kidnap", "would be after the walk's end; make --seconds longer");
     }
+  }
+  if (!commands.locate.options.use_yaw) {
+    refuse_option(*app.get_subcommand("locate"), "--yaw-deg", "is not used with --no-yaw; leave one of the two out");
   }
   CLI::App& accept = *app.get_subcommand("accept");
   if (commands.accept.figures.empty()) {

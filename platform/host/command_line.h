@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,12 @@ struct EvaluateCommand {
 int run_evaluate(const EvaluateCommand& command, std::ostream& out, std::ostream& err);
 
 struct LocateCommand {
-  std::string camera;  // a dataset.toml
+  std::string camera;  // a dataset.toml, or its folder
   std::vector<std::string> images;
+  std::optional<double> yaw_deg;  // as imu_yaw_deg of frames.jsonl; these four come before what files say
+  std::optional<double> height_m;
+  std::optional<double> pitch_deg;
+  std::optional<double> roll_deg;
   bool json = false;
   EvaluateOptions options;
 };

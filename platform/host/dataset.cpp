@@ -8,6 +8,7 @@
 
 #include "platform/host/host_error.h"
 #include "platform/host/image_file.h"
+#include "platform/host/key_notes.h"
 #include "platform/host/key_reader.h"
 #include "platform/host/toml_file.h"
 
@@ -56,14 +57,12 @@ void read_coefficients(KeyReader& keys, const char* key, std::array<float, N>& o
   for (std::size_t i = 0; i < values.size(); ++i) out[i] = as_float(values[i]);
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& sentences) {
-  for (const auto& s : sentences) {
-    if (to.size() < 20) to.push_back(s);  // the same slip on every line need not be told 1,000 times
-  }
-}
-
-void read_camera(const json& table, const std::string& where, CameraSetup& out, std::vector<std::string>& warnings) {
+void read_camera(const json& table, const std::string& where, CameraSetup& out, KeyNotes& notes,
+                 const json* own = nullptr) {
   KeyReader keys(table, where, "camera.");
+  keys.expect(
+      {"width", "height", "model", "focal_px", "cx", "cy", "max_theta_deg", "alpha", "a", "b", "k1", "k2", "k3", "k4"});
+  notes.add(keys, own);
   out.width = keys.integer("width", 16, max_frame_width, "give the images' width in pixels, at most 1280");
   out.height = keys.integer("height", 16, max_frame_height, "give the images' height in pixels, at most 1024");
   LensParameters& lens = out.lens;
@@ -88,28 +87,29 @@ void read_camera(const json& table, const std::string& where, CameraSetup& out, 
                                  needed ? std::nullopt : std::optional(0.0));
     if (needed) lens.k[i] = as_float(k);
   }
-  for (const char* other : {"alpha", "a", "b"}) (void)keys.has(other);
   const char* what = nullptr;
   Lens checked;
   if (Lens::create(lens, checked, &what) != Status::ok) {
     keys.fail("model", std::string("these lens parameters do not fit together: ") +
                            (what != nullptr ? what : "refused") + "; check them against the lens's calibration");
   }
-  append(warnings, keys.unknown_keys());
 }
 
-void read_mount(const json& table, const std::string& where, CameraPose& out, std::vector<std::string>& warnings) {
+/// `need_height` false: it may come later, and is 0 until then.
+void read_mount(const json& table, const std::string& where, bool need_height, CameraPose& out, KeyNotes& notes,
+                const json* own = nullptr) {
   KeyReader keys(table, where, "mount.");
+  keys.expect({"x_m", "y_m", "height_m", "yaw_deg", "pitch_deg", "roll_deg"});
+  notes.add(keys, own);
   const NumberRange offset{-10.0, 10.0, "give the camera's place in the robot in metres"};
   const NumberRange angle{-360.0, 360.0, "give the camera's angle in degrees"};
   out.x = as_float(keys.number("x_m", offset, 0.0));
   out.y = as_float(keys.number("y_m", offset, 0.0));
-  out.height =
-      as_float(keys.number("height_m", {0.01, 10.0, "give the camera's height above the carpet in metres, > 0"}));
+  const NumberRange height{0.01, 10.0, "give the camera's height above the carpet in metres, > 0"};
+  out.height = as_float(keys.number("height_m", height, need_height ? std::nullopt : std::optional(0.0)));
   out.yaw = as_radians(keys.number("yaw_deg", angle, 0.0));
   out.pitch = as_radians(keys.number("pitch_deg", angle, 0.0));
   out.roll = as_radians(keys.number("roll_deg", angle, 0.0));
-  append(warnings, keys.unknown_keys());
 }
 
 struct FieldKey {
@@ -141,7 +141,7 @@ void check_field(const FieldDimensions& dimensions, KeyReader& keys) {
   }
 }
 
-void read_field(KeyReader& top, DataSet& out) {
+void read_field(KeyReader& top, DataSet& out, KeyNotes& notes) {
   const json* value = top.find("field");
   if (value == nullptr)
     top.fail("field", "is missing; name a preset, e.g. field = \"small-2026\", or give a [field] table");
@@ -156,13 +156,14 @@ void read_field(KeyReader& top, DataSet& out) {
   if (!value->is_object())
     top.fail("field", "is " + value->dump() + "; name a preset in quotes or give a [field] table");
   KeyReader keys(*value, top.where(), "field.");
+  for (const auto& key : field_keys) keys.expect({key.name});
+  notes.add(keys);
   out.field_name = "free";
   const NumberRange metres{0.0, any_metres, "give the length in metres, between the centres of lines"};
   for (const auto& key : field_keys) {
     out.field.*key.member = as_float(keys.number(key.name, metres, key.required ? std::nullopt : std::optional(0.0)));
   }
   check_field(out.field, keys);
-  append(out.warnings, keys.unknown_keys());
 }
 
 Protocol read_protocol(KeyReader& keys) {
@@ -176,32 +177,34 @@ Protocol read_protocol(KeyReader& keys) {
 struct TomlTables {
   json camera = json::object();
   json mount = json::object();
-  double goal_yaw_deg = 0.0;
 };
 
-DataSet read_toml_part(const std::filesystem::path& file, TomlTables& tables, bool need_mount) {
+void read_toml_part(const std::filesystem::path& file, TomlTables& tables, DataSet& out, KeyNotes& notes) {
   const json root = read_toml(file);
   const std::string where = file.string();
   KeyReader keys(root, where, "");
-  DataSet out;
+  keys.expect({"name", "protocol", "field", "camera", "mount", "imu"});
+  notes.add(keys);
   out.folder = file.parent_path();
   out.name = keys.text("name", std::filesystem::absolute(out.folder / ".").parent_path().filename().string());
   out.protocol = read_protocol(keys);
-  read_field(keys, out);
-  tables.camera = keys.table("camera");
+  read_field(keys, out, notes);
+  tables.camera = keys.required_table("camera", "write [camera], with the lens and the size of the images");
   tables.mount = keys.table("mount");
-  read_camera(tables.camera, where, out.camera, out.warnings);
-  if (need_mount || tables.mount.contains("height_m")) read_mount(tables.mount, where, out.camera.mount, out.warnings);
+  read_camera(tables.camera, where, out.camera, notes);
+  read_mount(tables.mount, where, false, out.camera.mount, notes);
   KeyReader imu(keys.table("imu"), where, "imu.");
-  tables.goal_yaw_deg = imu.number("goal_yaw_deg", {-1e6, 1e6, "give the IMU's reading in degrees"}, 0.0);
-  append(out.warnings, imu.unknown_keys());
-  append(out.warnings, keys.unknown_keys());
-  return out;
+  imu.expect({"goal_yaw_deg"});
+  notes.add(imu);
+  out.goal_yaw_deg = imu.number("goal_yaw_deg", {-1e6, 1e6, "give the IMU's reading in degrees"}, 0.0);
 }
 
 Pose2 read_pose(const json& table, const std::string& where, const char* prefix, const char* x, const char* y,
-                const char* theta, std::vector<std::string>& warnings, bool* kidnap) {
+                const char* theta, KeyNotes& notes, bool* kidnap) {
   KeyReader keys(table, where, prefix);
+  keys.expect({x, y, theta});
+  if (kidnap != nullptr) keys.expect({"kidnap"});
+  notes.add(keys);
   const NumberRange metres{-any_metres, any_metres, "give it in metres"};
   const NumberRange angle{-1e6, 1e6, "give it in degrees"};
   Pose2 pose;
@@ -209,7 +212,6 @@ Pose2 read_pose(const json& table, const std::string& where, const char* prefix,
   pose.y = as_float(keys.number(y, metres));
   pose.theta = as_heading(keys.number(theta, angle));
   if (kidnap != nullptr) *kidnap = keys.flag("kidnap", false);
-  append(warnings, keys.unknown_keys());
   return pose;
 }
 
@@ -220,29 +222,32 @@ json laid_over(const json& base, const json& over) {
   return merged;
 }
 
-DataFrame read_frame(const json& line, const std::string& where, const TomlTables& tables, DataSet& set) {
+DataFrame read_frame(const json& line, const std::string& where, const TomlTables& tables, const DataSet& set,
+                     KeyNotes& notes) {
   KeyReader keys(line, where, "");
+  keys.expect({"image", "t_s", "camera", "mount", "odometry", "imu_yaw_deg", "truth"});
+  notes.add(keys);
   DataFrame frame;
   frame.image = keys.text("image", std::nullopt, "name the frame's image, e.g. \"image\": \"images/000.png\"");
   frame.path = set.folder / frame.image;
   frame.has_time = keys.has("t_s");
   frame.time_s = keys.number("t_s", {-1e9, 1e9, "give the frame's time in seconds"}, 0.0);
-  read_camera(laid_over(tables.camera, keys.table("camera")), where, frame.camera, set.warnings);
-  read_mount(laid_over(tables.mount, keys.table("mount")), where, frame.camera.mount, set.warnings);
+  const json& camera = keys.table("camera");
+  read_camera(laid_over(tables.camera, camera), where, frame.camera, notes, &camera);
+  const json& mount = keys.table("mount");
+  read_mount(laid_over(tables.mount, mount), where, true, frame.camera.mount, notes, &mount);
   frame.has_odometry = keys.has("odometry");
   if (frame.has_odometry) {
     frame.odometry =
-        read_pose(keys.table("odometry"), where, "odometry.", "dx_m", "dy_m", "dtheta_deg", set.warnings, nullptr);
+        read_pose(keys.table("odometry"), where, "odometry.", "dx_m", "dy_m", "dtheta_deg", notes, nullptr);
   }
   frame.has_yaw = keys.has("imu_yaw_deg");
   const double yaw = keys.number("imu_yaw_deg", {-1e6, 1e6, "give the IMU's yaw in degrees"}, 0.0);
-  frame.yaw = as_heading(yaw - tables.goal_yaw_deg);
+  frame.yaw = as_heading(yaw - set.goal_yaw_deg);
   frame.has_truth = keys.has("truth");
   if (frame.has_truth) {
-    frame.truth =
-        read_pose(keys.table("truth"), where, "truth.", "x_m", "y_m", "theta_deg", set.warnings, &frame.kidnap);
+    frame.truth = read_pose(keys.table("truth"), where, "truth.", "x_m", "y_m", "theta_deg", notes, &frame.kidnap);
   }
-  append(set.warnings, keys.unknown_keys());
   return frame;
 }
 
@@ -263,19 +268,33 @@ void check_order(const std::vector<DataFrame>& frames, const std::string& where)
   }
 }
 
-void read_frames(const std::filesystem::path& file, const TomlTables& tables, DataSet& set) {
+void read_frames(const std::filesystem::path& file, const TomlTables& tables, DataSet& set, KeyNotes& notes) {
   std::ifstream in(file);
   if (!in) throw HostError(file.string() + ": no such file; write one JSON object a line, one for each image");
   std::string text;
   for (int number = 1; std::getline(in, text); ++number) {
     if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string where = file.string() + ": line " + std::to_string(number);
-    set.frames.push_back(read_frame(parse_line(text, where), where, tables, set));
+    set.frames.push_back(read_frame(parse_line(text, where), where, tables, set, notes));
     set.frames.back().line = number;
     if (set.protocol == Protocol::sequence) check_order(set.frames, where);
   }
   if (set.frames.empty())
     throw HostError(file.string() + ": holds no frame; write one JSON object a line, one for each image");
+}
+
+DataSet read_parts(const std::filesystem::path& toml, bool with_frames) {
+  DataSet set;
+  TomlTables tables;
+  KeyNotes notes;
+  try {
+    read_toml_part(toml, tables, set, notes);
+    if (with_frames) read_frames(set.folder / "frames.jsonl", tables, set, notes);
+  } catch (const HostError& error) {
+    notes.fail(error);
+  }
+  set.warnings = notes.sentences();
+  return set;
 }
 
 }  // namespace
@@ -294,24 +313,23 @@ DataSet read_dataset(const std::filesystem::path& folder) {
   if (std::filesystem::is_empty(folder, ignored)) {
     throw HostError(folder.string() + ": the folder is empty; a data set has dataset.toml, frames.jsonl and images");
   }
-  TomlTables tables;
-  DataSet set = read_toml_part(folder / "dataset.toml", tables, false);
-  read_frames(folder / "frames.jsonl", tables, set);
-  return set;
+  return read_parts(folder / "dataset.toml", true);
 }
 
-DataSet read_dataset_toml(const std::filesystem::path& file) {
-  TomlTables tables;
-  return read_toml_part(file, tables, true);
-}
+DataSet read_dataset_toml(const std::filesystem::path& file) { return read_parts(file, false); }
 
 RgbImage read_frame_image(const DataFrame& frame) {
-  RgbImage image = read_image(frame.path);
+  RgbImage image;
+  try {
+    image = read_image(frame.path);
+  } catch (const HostError& error) {
+    throw FrameError(error.what());
+  }
   if (image.width != frame.camera.width || image.height != frame.camera.height) {
-    throw HostError(frame.path.string() + ": the image is " + std::to_string(image.width) + "x" +
-                    std::to_string(image.height) + ", but camera.width x camera.height of the data set say " +
-                    std::to_string(frame.camera.width) + "x" + std::to_string(frame.camera.height) +
-                    "; correct the keys or the image");
+    throw FrameError(frame.path.string() + ": the image is " + std::to_string(image.width) + "x" +
+                     std::to_string(image.height) + ", but camera.width x camera.height of the data set say " +
+                     std::to_string(frame.camera.width) + "x" + std::to_string(frame.camera.height) +
+                     "; correct the keys or the image");
   }
   return image;
 }

@@ -50,7 +50,8 @@ struct DataSet {
   Protocol protocol = Protocol::independent;
   std::string field_name;  // the preset's, or "free"
   FieldDimensions field;
-  CameraSetup camera;
+  CameraSetup camera;  // the mount's height is 0 where the frames alone give it
+  double goal_yaw_deg = 0.0;
   std::vector<DataFrame> frames;
   std::vector<std::string> warnings;  // sentences about keys that nobody uses
 };
@@ -59,7 +60,7 @@ struct DataSet {
 DataSet read_dataset(const std::filesystem::path& folder);
 /// Reads a dataset.toml alone (for single images): no frames.
 DataSet read_dataset_toml(const std::filesystem::path& file);
-/// The image of a frame; throws HostError when it is missing, damaged or of another size than the camera's.
+/// The image of a frame; throws FrameError when it is missing, damaged or of another size than the camera's.
 struct RgbImage read_frame_image(const DataFrame& frame);
 
 }  // namespace touchline::host

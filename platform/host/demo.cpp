@@ -238,9 +238,13 @@ class Demo {
     out << summary.dump(2) << "\n";
     if (!out.flush()) throw HostError(file("summary.json").string() + ": cannot be written; check the space left");
     char text[200];
-    std::snprintf(text, sizeof text, "RMSE %.3f m %.2f deg over %d frames; ", score.rmse_m, score.rmse_deg,
-                  score.counted);
-    out_ << text;
+    if (score.counted > score.without_pose) {
+      std::snprintf(text, sizeof text, "RMSE %.3f m %.2f deg over %d frames; ", score.rmse_m, score.rmse_deg,
+                    score.counted);
+      out_ << text;
+    } else {
+      out_ << "no pose in the " << score.counted << " frames that count; ";
+    }
     for (const auto& seconds : score.back_s) {
       std::snprintf(text, sizeof text, seconds ? "back %.2f s after the kidnap; " : "never back after the kidnap; ",
                     seconds.value_or(0.0));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 #include "platform/host/host_error.h"
 #include "platform/host/image_file.h"
@@ -81,8 +82,21 @@ std::vector<std::string> panel_text(const FrameRecord& record, const VisionResul
   return lines;
 }
 
-void write_overlay(const EvaluateOptions& options, const SetResult& set, const FrameRecord& record,
-                   const RgbImage& picture, Chain& chain) {
+/// Sees to it that no two pictures of a run have one name.
+class PictureNames {
+ public:
+  std::string next(const std::filesystem::path& image) {
+    const std::string stem = image.stem().string();
+    const int number = ++used_[stem];
+    return number == 1 ? stem + ".png" : stem + "-" + std::to_string(number) + ".png";
+  }
+
+ private:
+  std::map<std::string, int> used_;
+};
+
+void write_overlay(const std::filesystem::path& file, const FrameRecord& record, const RgbImage& picture,
+                   Chain& chain) {
   OverlayInput input;
   input.picture = &picture;
   input.vision = &chain.vision();
@@ -92,12 +106,13 @@ void write_overlay(const EvaluateOptions& options, const SetResult& set, const F
   input.truth = record.frame.truth;
   input.particles = chain.particles();
   input.text = panel_text(record, chain.vision());
-  const auto folder = std::filesystem::path(options.frames_out) / set.name;
   std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw HostError(folder.string() + ": cannot be made: " + failed.message() + "; choose another --frames folder");
-  write_png(folder / (record.frame.path.stem().string() + ".png"), draw_overlay(input));
+  std::filesystem::create_directories(file.parent_path(), failed);
+  if (failed) {
+    throw HostError(file.parent_path().string() + ": cannot be made: " + failed.message() +
+                    "; choose another --frames folder");
+  }
+  write_png(file, draw_overlay(input));
 }
 
 void add_sequence_score(SetResult& result) {
@@ -109,36 +124,98 @@ void add_sequence_score(SetResult& result) {
   if (!judged.empty()) result.sequence = judge_sequence(judged);
 }
 
-}  // namespace
+/// One run through a data set, frame by frame.
+class Run {
+ public:
+  Run(const DataSet& set, const EvaluateOptions& options)
+      : set_(set),
+        options_(options),
+        independent_(set.protocol == Protocol::independent),
+        chain_(options.chain, set.field) {}
 
-SetResult evaluate(const DataSet& set, const EvaluateOptions& options,
-                   const std::function<void(const FrameRecord&)>& on_frame) {
-  const bool independent = set.protocol == Protocol::independent;
-  Chain chain(options.chain, set.field);
-  SetResult result;
-  result.name = set.name;
-  result.protocol = set.protocol;
-  StageClock clock;
-  for (std::size_t i = 0; i < set.frames.size(); ++i) {
+  FrameRecord frame(std::size_t index) {
     FrameRecord record;
-    record.frame = set.frames[i];
+    record.frame = set_.frames[index];
+    take_over(record.frame);
+    try {
+      use(record, index);
+    } catch (const FrameError& error) {
+      leave_out(record, error.what());
+    }
+    return record;
+  }
+
+ private:
+  /// What the frames that were left out before would have told.
+  void take_over(DataFrame& frame) const {
+    frame.kidnap = frame.kidnap || left_kidnap_;
+    if (!left_odometry_) return;
+    frame.odometry = frame.has_odometry ? compose(*left_odometry_, frame.odometry) : *left_odometry_;
+    frame.has_odometry = true;
+  }
+
+  void use(FrameRecord& record, std::size_t index) {
+    const bool start = independent_ || !started_;
     const RgbImage picture = read_frame_image(record.frame);
-    const double time_s = time_of(record.frame, i);
-    if (independent || i == 0) chain.forget(options.seed + i);
-    clock.clear();
-    LocalizerInput input = input_of(record.frame, time_s, options);
-    if (independent || i == 0) input.odometry = {};
-    const VisionResult& vision = chain.see(picture.view(), time_s, record.frame.camera, input.odometry, &clock);
-    show(chain, input, independent ? max_shows : 1, clock, record);
-    record.us = clock.times();
+    const double time_s = time_of(record.frame, index);
+    if (start) chain_.forget(options_.seed + (independent_ ? index : 0U));
+    clock_.clear();
+    LocalizerInput input = input_of(record.frame, time_s, options_);
+    if (start) input.odometry = {};
+    const VisionResult& vision = chain_.see(picture.view(), time_s, record.frame.camera, input.odometry, &clock_);
+    show(chain_, input, independent_ ? max_shows : 1, clock_, record);
+    started_ = true;
+    left_odometry_.reset();
+    left_kidnap_ = false;
+    record.us = clock_.times();
     record.junctions.assign(vision.features->junctions.begin(), vision.features->junctions.end());
     record.posts.assign(vision.features->posts.begin(), vision.features->posts.end());
     judge_record(record);
-    if (!options.frames_out.empty()) write_overlay(options, result, record, picture, chain);
-    if (on_frame) on_frame(record);
-    result.frames.push_back(std::move(record));
+    if (options_.frames_out.empty()) return;
+    const auto folder = std::filesystem::path(options_.frames_out) / folder_name(set_.name);
+    write_overlay(folder / names_.next(record.frame.path), record, picture, chain_);
   }
-  if (!independent) add_sequence_score(result);
+
+  void leave_out(FrameRecord& record, const char* why) {
+    const bool unseen = record.shows == 0;  // or it is the judge who could not use the frame
+    if (!independent_ && unseen && record.frame.has_odometry) left_odometry_ = record.frame.odometry;
+    left_kidnap_ = !independent_ && record.frame.kidnap;
+    const DataFrame frame = record.frame;
+    record = {};
+    record.frame = frame;
+    record.failure = why;
+  }
+
+  const DataSet& set_;
+  const EvaluateOptions& options_;
+  bool independent_;
+  Chain chain_;
+  StageClock clock_;
+  PictureNames names_;
+  bool started_ = false;
+  std::optional<Pose2> left_odometry_;
+  bool left_kidnap_ = false;
+};
+
+}  // namespace
+
+std::string folder_name(const std::string& set_name) {
+  std::string name = set_name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name.empty() || name == "." || name == ".." ? "set" : name;
+}
+
+SetResult evaluate(const DataSet& set, const EvaluateOptions& options,
+                   const std::function<void(const FrameRecord&)>& on_frame) {
+  SetResult result;
+  result.name = set.name;
+  result.protocol = set.protocol;
+  Run run(set, options);
+  for (std::size_t i = 0; i < set.frames.size(); ++i) {
+    result.frames.push_back(run.frame(i));
+    if (on_frame) on_frame(result.frames.back());
+  }
+  if (set.protocol == Protocol::sequence) add_sequence_score(result);
   return result;
 }
 
@@ -159,6 +236,10 @@ Summary summarize(std::span<const FrameRecord* const> frames) {
   std::array<std::vector<double>, stage_count> us;
   for (const FrameRecord* record : frames) {
     ++sum.frames;
+    if (!record->failure.empty()) {
+      ++sum.failed;
+      continue;
+    }
     sum.with_pose += record->estimate.valid ? 1 : 0;
     shows += record->shows;
     sum.most_shows = std::max(sum.most_shows, record->shows);
@@ -178,7 +259,7 @@ Summary summarize(std::span<const FrameRecord* const> frames) {
     sum.distances_m.push_back(error.has_pose ? error.distance_m : infinite);
     sum.angles_deg.push_back(error.has_pose ? error.angle_deg : infinite);
   }
-  if (sum.frames > 0) sum.mean_shows = shows / sum.frames;
+  if (sum.frames > sum.failed) sum.mean_shows = shows / (sum.frames - sum.failed);
   for (std::size_t i = 0; i < stage_count; ++i) sum.median_us[i] = us[i].empty() ? 0.0 : quantile(us[i], 0.5);
   return sum;
 }

@@ -32,6 +32,7 @@ struct EvaluateOptions {
 
 struct FrameRecord {
   DataFrame frame;
+  std::string failure;  // why the frame could not be used; then all below is void
   PoseEstimate estimate;
   int shows = 0;
   bool settled = false;
@@ -49,13 +50,18 @@ struct SetResult {
   std::optional<SequenceScore> sequence;  // sequences with truth
 };
 
-/// Throws HostError for an image that cannot be used. `on_frame` is told each record as it is made.
+/// A frame that cannot be used is recorded with its failure, and the run goes on; in a sequence its odometry is added
+/// to the next frame's. Throws HostError for what concerns all frames. `on_frame` is told each record as it is made.
 SetResult evaluate(const DataSet& set, const EvaluateOptions& options,
                    const std::function<void(const FrameRecord&)>& on_frame = {});
+
+/// The folder below --frames for a set's pictures: its name, as far as a folder can have it.
+std::string folder_name(const std::string& set_name);
 
 /// The figures of some frames together.
 struct Summary {
   int frames = 0;
+  int failed = 0;  // could not be used; all below is about the others
   int with_pose = 0;
   int with_truth = 0;
   int without_pose = 0;  // of those with truth: failures

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one exception of the host programs: bad input or a bad command. Its text names the file, the key and the remedy;
+// The exception of the host programs: bad input or a bad command. Its text names the file, the key and the remedy;
 // `touchline` prints it and exits with status 2.
 #pragma once
 
@@ -11,6 +11,12 @@ namespace touchline::host {
 class HostError : public std::runtime_error {
  public:
   explicit HostError(const std::string& text) : std::runtime_error(text) {}
+};
+
+/// One frame of a data set cannot be used; the others can.
+class FrameError : public HostError {
+ public:
+  using HostError::HostError;
 };
 
 }  // namespace touchline::host

@@ -49,8 +49,8 @@ std::optional<std::vector<ExpectedLandmark>> read_expected(const std::filesystem
   try {
     return parse(json::parse(in));
   } catch (const json::exception& error) {
-    throw HostError(file.string() + ": not a list of expected landmarks: " + error.what() +
-                    "; correct or remove the file");
+    throw FrameError(file.string() + ": not a list of expected landmarks: " + error.what() +
+                     "; correct or remove the file");
   }
 }
 

@@ -135,15 +135,28 @@ const nlohmann::json& KeyReader::table(const char* key) {
   return *value;
 }
 
-std::vector<std::string> KeyReader::unknown_keys() const {
-  std::vector<std::string> sentences;
+const nlohmann::json& KeyReader::required_table(const char* key, const std::string& remedy) {
+  if (!has(key)) fail(key, "the table is missing; " + remedy);
+  return table(key);
+}
+
+void KeyReader::expect(std::initializer_list<const char*> keys) {
+  asked_.insert(asked_.end(), keys.begin(), keys.end());
+}
+
+std::vector<UnknownKey> KeyReader::unknown_keys() const {
+  std::vector<UnknownKey> unknown;
   for (const auto& [key, value] : table_.items()) {
     if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
     const std::string near = nearest_word(key, asked_);
-    sentences.push_back(where_ + ": " + prefix_ + key + ": unknown key, not used" +
-                        (near.empty() ? std::string() : "; did you mean " + near + "?"));
+    std::string name = prefix_;
+    name.append(key);
+    std::string text = name;
+    text.append(value.is_object() ? ": unknown table, not used" : ": unknown key, not used");
+    if (!near.empty()) text.append("; did you mean ").append(near).append("?");
+    unknown.push_back({name, text});
   }
-  return sentences;
+  return unknown;
 }
 
 }  // namespace touchline::host

@@ -3,6 +3,7 @@
 // nobody asked for are collected, so that a typing error does not pass unseen.
 #pragma once
 
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,6 +24,11 @@ struct NumberRange {
   const char* remedy = "give a finite number";
 };
 
+struct UnknownKey {
+  std::string key;   // with its table
+  std::string text;  // "field.penalty_mrk: unknown key, not used; did you mean penalty_mark?"
+};
+
 class KeyReader {
  public:
   /// `table` must outlive the reader. `where` is the file, with the line where there is one; `prefix` is the table's
@@ -38,11 +44,15 @@ class KeyReader {
   std::vector<double> numbers(const char* key, std::size_t max_count);
   /// An empty table when the key is missing.
   const nlohmann::json& table(const char* key);
+  /// Throws when it is missing.
+  const nlohmann::json& required_table(const char* key, const std::string& remedy);
   const nlohmann::json* find(const char* key);
 
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
-  /// One sentence for each key that was never asked for.
-  [[nodiscard]] std::vector<std::string> unknown_keys() const;
+  /// Tells all keys that may be asked for, so that unknown_keys() can be called before they are.
+  void expect(std::initializer_list<const char*> keys);
+  /// Each key that nobody asks for, with the nearest right one.
+  [[nodiscard]] std::vector<UnknownKey> unknown_keys() const;
   [[nodiscard]] std::string prefix() const { return prefix_; }
   [[nodiscard]] const std::string& where() const { return where_; }
 

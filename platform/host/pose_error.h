@@ -2,6 +2,7 @@
 // How a pose is judged against the truth: the rules of the data sets' format, and nothing of the localizer's own.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,10 +41,10 @@ struct JudgedFrame {
 };
 
 struct SequenceScore {
-  int counted = 0;       // frames that count
-  int without_pose = 0;  // of those
-  double rmse_m = 0.0;   // over those with a pose
-  double rmse_deg = 0.0;
+  int counted = 0;                                           // frames that count
+  int without_pose = 0;                                      // of those
+  double rmse_m = std::numeric_limits<double>::quiet_NaN();  // over those with a pose; NaN: there are none
+  double rmse_deg = std::numeric_limits<double>::quiet_NaN();
   /// For each kidnap: seconds until the pose is back, nothing when it never is (before the next kidnap).
   std::vector<std::optional<double>> back_s;
 };

@@ -2,8 +2,11 @@
 // What an evaluation says.
 #include "platform/host/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iomanip>
+#include <limits>
 #include <ostream>
 
 #include <nlohmann/json.hpp>
@@ -91,7 +94,7 @@ json junction_score_json(const JunctionScore& score) {
 }
 
 json figures(const Summary& s) {
-  json out = {{"frames", s.frames}, {"with_pose", s.with_pose}, {"with_truth", s.with_truth}};
+  json out = {{"frames", s.frames}, {"failed", s.failed}, {"with_pose", s.with_pose}, {"with_truth", s.with_truth}};
   if (s.with_truth > 0) {
     out["without_pose"] = s.without_pose;
     out["wrong_half"] = s.wrong_half;
@@ -130,9 +133,20 @@ void print(std::ostream& out, const char* format, Values... values) {
 double number(float value) { return static_cast<double>(value); }
 double percent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 0.0; }
 
+/// "-" where there is no such number.
+std::string in(const char* format, double value) {
+  if (!std::isfinite(value)) return "-";
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+std::string in_metres(double value) { return in("%.3f m", value); }
+std::string in_degrees(double value) { return in("%.2f deg", value); }
+std::string in_percent(double share) { return in("%.0f %%", 100.0 * share); }
+
 void print_errors(std::ostream& out, const Summary& s) {
-  print(out, "  error: median %.3f m %.2f deg, 90 %% within %.3f m, worst %.3f m\n", s.median_m(), s.median_deg(),
-        quantile(s.distances_m, 0.9), s.worst_m());
+  out << "  error: median " << in_metres(s.median_m()) << " " << in_degrees(s.median_deg()) << ", 90 % within "
+      << in_metres(quantile(s.distances_m, 0.9)) << ", worst " << in_metres(s.worst_m()) << "\n";
   print(out, "  within 0.05 m: %d, 0.10 m: %d, 0.20 m: %d, 0.40 m: %d of %d; wrong half: %d; no pose: %d\n",
         s.within(0.05), s.within(0.10), s.within(0.20), s.within(0.40), s.with_truth, s.wrong_half, s.without_pose);
   print(out, "  truth outside 3 sigma: %d of %d frames (%.1f %%)\n", s.outside_3_sigma, s.with_truth,
@@ -140,8 +154,12 @@ void print_errors(std::ostream& out, const Summary& s) {
 }
 
 void print_sequence(std::ostream& out, const SequenceScore& score) {
-  print(out, "  sequence: RMSE %.3f m %.2f deg over %d frames that count, %d of them without a pose\n", score.rmse_m,
-        score.rmse_deg, score.counted, score.without_pose);
+  if (score.counted == 0) {
+    out << "  sequence: RMSE - over 0 frames that count: the first second and the one after a kidnap do not\n";
+  } else {
+    out << "  sequence: RMSE " << in_metres(score.rmse_m) << " " << in_degrees(score.rmse_deg) << " over "
+        << score.counted << " frames that count, " << score.without_pose << " of them without a pose\n";
+  }
   for (const auto& seconds : score.back_s) {
     if (seconds) {
       print(out, "  kidnap: back after %.2f s\n", *seconds);
@@ -155,10 +173,20 @@ void print_junctions(std::ostream& out, const JunctionScore& score) {
   out << "  junctions within 2.5 m, by 4 px:";
   for (const auto type : {JunctionType::x, JunctionType::t, JunctionType::l}) {
     const auto& c = score[static_cast<std::size_t>(type)];
-    print(out, "  %s precision %.0f %% (%d of %d), recall %.0f %% (%d of %d)", to_string(type), 100.0 * c.precision(),
-          c.right, c.right + c.wrong, 100.0 * c.recall(), c.found, c.to_find);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    out << "  " << to_string(type) << " precision " << in_percent(c.right + c.wrong > 0 ? c.precision() : none) << " ("
+        << c.right << " of " << c.right + c.wrong << "), recall " << in_percent(c.to_find > 0 ? c.recall() : none)
+        << " (" << c.found << " of " << c.to_find << ")";
   }
   out << "\n";
+}
+
+std::string yaw_words(const DataSet& set, const EvaluateOptions& options) {
+  const auto with_yaw = std::count_if(set.frames.begin(), set.frames.end(), [](const auto& f) { return f.has_yaw; });
+  if (with_yaw == 0) return "no yaw";
+  if (!options.use_yaw) return "yaw not used";
+  if (with_yaw == static_cast<std::ptrdiff_t>(set.frames.size())) return "yaw given";
+  return "yaw given for " + std::to_string(with_yaw) + " of them";
 }
 
 }  // namespace
@@ -169,11 +197,16 @@ const char* to_string(Landmarks landmarks) {
   return landmarks == Landmarks::both ? "both" : "lines";
 }
 
-std::string json_line(const FrameRecord& record) {
+std::string json_line(const std::string& set, const FrameRecord& record) {
   const auto& e = record.estimate;
   json out;
+  out["set"] = set;
   out["image"] = record.frame.image;
   out["t_s"] = record.frame.has_time ? json(record.frame.time_s) : json(nullptr);
+  if (!record.failure.empty()) {
+    out["failure"] = record.failure;
+    return out.dump();
+  }
   out["pose"] = e.valid ? pose_json(e.pose) : json(nullptr);
   out["std"] = e.valid ? std_json(e.covariance) : json(nullptr);
   out["confidence"] = e.valid ? share(e.confidence) : json(0.0);
@@ -190,6 +223,7 @@ std::string json_line(const FrameRecord& record) {
 std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptions& options) {
   std::vector<const FrameRecord*> all;
   json per_set = json::array();
+  const auto has_yaw = [](const FrameRecord* record) { return record->frame.has_yaw; };
   for (const auto& set : sets) {
     for (const auto& record : set.frames) all.push_back(&record);
     json entry = {{"name", set.name}, {"protocol", to_string(set.protocol)}};
@@ -200,7 +234,7 @@ std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptio
   json summary = {{"model", to_string(options.chain.model)},
                   {"landmarks", to_string(options.chain.landmarks)},
                   {"work", std::to_string(options.chain.work_width) + "x" + std::to_string(options.chain.work_height)},
-                  {"yaw", options.use_yaw},
+                  {"yaw", options.use_yaw && std::any_of(all.begin(), all.end(), has_yaw)},
                   {"seed", options.seed}};
   summary.update(figures(summarize(all)));
   summary["sets"] = per_set;
@@ -208,16 +242,19 @@ std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptio
 }
 
 void print_table_head(std::ostream& out, const DataSet& set, const EvaluateOptions& options) {
-  print(out, "%s: %d frames, %s, field %s; %s model, landmarks: %s, yaw %s, %dx%d\n", set.name.c_str(),
-        static_cast<int>(set.frames.size()), to_string(set.protocol), set.field_name.c_str(),
-        to_string(options.chain.model), to_string(options.chain.landmarks), options.use_yaw ? "given" : "not given",
-        options.chain.work_width, options.chain.work_height);
+  out << set.name << ": " << set.frames.size() << " frames, " << to_string(set.protocol) << ", field " << set.field_name
+      << "; " << to_string(options.chain.model) << " model, landmarks: " << to_string(options.chain.landmarks) << ", "
+      << yaw_words(set, options) << ", " << options.chain.work_width << "x" << options.chain.work_height << "\n";
   out << "  image                     x m     y m   theta   std m  conf  shown   error m    deg\n";
 }
 
 void print_table_row(std::ostream& out, const FrameRecord& record) {
   const auto& e = record.estimate;
-  print(out, "  %-20s", record.frame.image.c_str());
+  out << "  " << std::left << std::setw(20) << record.frame.image << std::right;
+  if (!record.failure.empty()) {
+    out << " could not be used\n";
+    return;
+  }
   if (e.valid) {
     print(out, " %7.3f %7.3f %7.1f %7.3f %5.2f %4d%s", number(e.pose.x), number(e.pose.y),
           number(degrees(e.pose.theta)), number(std::sqrt(e.covariance.xx + e.covariance.yy)), number(e.confidence),
@@ -236,6 +273,12 @@ void print_table_summary(std::ostream& out, const SetResult& set) {
   const Summary s = summarize(set);
   print(out, "  poses: %d of %d frames; shown %.1f times on average, %d at most (+: not settled, %d frames)\n",
         s.with_pose, s.frames, s.mean_shows, s.most_shows, s.not_settled);
+  if (s.failed > 0)
+    print(out, "  could not be used: %d of %d frames, which are in no figure here\n", s.failed, s.frames);
+  if (s.failed == s.frames) {
+    out << "\n";
+    return;
+  }
   if (s.with_truth > 0) print_errors(out, s);
   if (set.sequence) print_sequence(out, *set.sequence);
   if (s.has_junctions) print_junctions(out, s.junctions);

@@ -11,11 +11,12 @@
 namespace touchline::host {
 
 /// One line of JSON without its line end:
-/// {"image", "t_s", "pose": {"x_m","y_m","theta_deg"}, "std": {...}, "confidence", "mirror": {...}, "junctions":
+/// {"set", "image", "t_s", "pose": {"x_m","y_m","theta_deg"}, "std": {...}, "confidence", "mirror": {...}, "junctions":
 /// [{"type","u_px","v_px","x_m","y_m","confidence"}], "posts": [...], "us": {stage: microseconds}, "shows", "settled"},
 /// and "error" {"m","deg","wrong_half","outside_3_sigma"} where there is a truth. u, v in pixels of the camera's image;
-/// x, y of junctions and posts in the robot's frame. pose, std and mirror are null where there is none.
-std::string json_line(const FrameRecord& record);
+/// x, y of junctions and posts in the robot's frame. pose, std and mirror are null where there is none. A frame that
+/// could not be used has {"set", "image", "t_s", "failure"} alone.
+std::string json_line(const std::string& set, const FrameRecord& record);
 /// {"summary": {figures of all frames together, "sets": [figures of each set]}}
 std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptions& options);
 

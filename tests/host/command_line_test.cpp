@@ -193,9 +193,105 @@ TEST_CASE("the table says the same for people, and --frames writes a picture of 
   CHECK(read_image(pictures / "tiny" / "0.png").width == 620);
 }
 
+TEST_CASE("locate takes mount and yaw from options, else from frames.jsonl, else from dataset.toml") {
+  const TempFolder folder;
+  write_tiny(folder);
+  RgbImage other(320, 240);
+  write_png(folder.path() / "images/other.png", other);
+  const std::string path = folder.path().string();
+  const auto locate = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"locate", "--camera", path};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  const std::string listed = path + "/images/0.png";
+  const std::string unlisted = path + "/images/other.png";
+  CHECK(contains(locate({listed}).out, "1 of 1 images have a line in frames.jsonl"));
+  CHECK(contains(locate({listed}).out, "yaw given"));
+  CHECK(contains(locate({listed, "--no-yaw"}).out, "yaw not used"));
+  CHECK(contains(locate({unlisted}).out, "no yaw"));
+  CHECK(contains(locate({unlisted, "--yaw-deg", "12"}).out, "yaw given"));
+  CHECK(contains(locate({listed, unlisted}).out, "yaw given for 1 of them"));
+  CHECK(contains(locate({unlisted, "--json"}).out, "\"yaw\":false"));
+  CHECK(contains(locate({listed, "--json"}).out, "\"yaw\":true"));
+  check_refused(locate({listed, "--no-yaw", "--yaw-deg", "1"}), "--yaw-deg: is not used with --no-yaw");
+  check_refused(locate({listed, "--height-m", "0"}), "locate --height-m 0: write a number from 0.01 to 10");
+  check_refused(locate({listed, "--pitch-deg", "nan"}), "locate --pitch-deg nan");
+  // A camera file without the height: the line has it, and the option.
+  std::string no_height = toml;
+  no_height.replace(no_height.find("height_m = 0.58"), 15, "");
+  write_tiny(folder, no_height, "{\"image\": \"images/0.png\", \"mount\": {\"height_m\": 0.5}}\n");
+  CHECK(locate({listed}).status == 0);
+  check_refused(locate({unlisted}), "mount.height_m: is missing; add it, or give --height-m");
+  CHECK(locate({unlisted, "--height-m", "0.5"}).status == 0);
+}
+
+TEST_CASE("locate's options come before the files") {
+  const std::string folder = std::string(TOUCHLINE_FIXTURES) + "/sim-poses";
+  const auto frame = [&](std::vector<std::string> more) {
+    std::vector<std::string> all{"locate", "--json", "--camera", folder + "/dataset.toml", folder + "/images/000.png"};
+    all.insert(all.end(), more.begin(), more.end());
+    const std::string lines = run(all).out;
+    return nlohmann::json::parse(lines.substr(0, lines.find('\n')));
+  };
+  const auto by_line = frame({});
+  CHECK(by_line.at("error").at("m").get<double>() < 0.10);  // the line has the truth, too
+  CHECK(frame({"--height-m", "1.2"}).at("pose") != by_line.at("pose"));
+  CHECK(frame({"--pitch-deg", "50"}).at("pose") != by_line.at("pose"));
+  CHECK(frame({"--roll-deg", "20"}).at("pose") != by_line.at("pose"));
+}
+
+TEST_CASE("a frame that cannot be used is told, the others are evaluated, and the status is 2") {
+  const TempFolder folder;
+  write_tiny(folder, toml,
+             "{\"image\": \"images/0.png\"}\n{\"image\": \"images/none.png\"}\n{\"image\": \"images/0.png\"}\n");
+  const Run table = run({"evaluate", folder.path().string()});
+  CHECK(table.status == 2);
+  CHECK(contains(table.out, "images/none.png      could not be used"));
+  CHECK(contains(table.out, "poses: 0 of 3 frames"));
+  CHECK(contains(table.out, "could not be used: 1 of 3 frames"));
+  CHECK(contains(table.err, "images/none.png: no such image"));
+  CHECK(contains(table.err, "tiny: no frame has a pose; check the lens"));
+  const Run lines = run({"evaluate", folder.path().string(), "--json"});
+  CHECK(lines.status == 2);
+  CHECK(std::count(lines.out.begin(), lines.out.end(), '\n') == 4);
+  CHECK(contains(lines.out, "{\"set\":\"tiny\",\"image\":\"images/none.png\",\"t_s\":null,\"failure\":"));
+  CHECK(contains(lines.out, "\"frames\":3,\"failed\":1,"));
+}
+
+TEST_CASE("where nothing counts there is a dash, not a perfect figure") {
+  const TempFolder folder;
+  write_tiny(folder, "protocol = \"sequence\"\n" + std::string(toml),
+             "{\"image\": \"images/0.png\", \"truth\": {\"x_m\": 0, \"y_m\": 0, \"theta_deg\": 0}}\n");
+  const Run table = run({"evaluate", folder.path().string()});
+  CHECK(contains(table.out, "RMSE - over 0 frames"));
+  CHECK(contains(table.out, "error: median - -"));
+  CHECK(contains(run({"evaluate", folder.path().string(), "--json"}).out, "\"rmse_m\":null"));
+}
+
+TEST_CASE("two sets of one name are told apart, in lines and in folders") {
+  const TempFolder first;
+  const TempFolder second;
+  write_tiny(first);
+  write_tiny(second, toml, "{\"image\": \"images/0.png\"}\n{\"image\": \"other/0.png\"}\n");
+  std::filesystem::create_directories(second.path() / "other");
+  std::filesystem::copy(second.path() / "images/0.png", second.path() / "other/0.png");
+  const auto out = first.path() / "out";
+  const Run result =
+      run({"evaluate", first.path().string(), second.path().string(), "--json", "--frames", out.string()});
+  REQUIRE(result.status == 0);
+  CHECK(contains(result.out, "{\"set\":\"tiny\","));
+  CHECK(contains(result.out, "{\"set\":\"tiny-2\","));
+  CHECK(contains(result.out, "{\"name\":\"tiny-2\","));
+  CHECK(read_image(out / "tiny/0.png").width == 620);
+  CHECK(read_image(out / "tiny-2/0.png").width == 620);
+  CHECK(read_image(out / "tiny-2/0-2.png").width == 620);  // and two images of one name
+}
+
 TEST_CASE("locate needs no frames.jsonl") {
   const TempFolder folder;
   write_tiny(folder);
+  std::filesystem::remove(folder.path() / "frames.jsonl");
   const std::string camera = (folder.path() / "dataset.toml").string();
   const std::string image = (folder.path() / "images/0.png").string();
   CHECK(run({"locate", "--camera", camera, image}).status == 0);

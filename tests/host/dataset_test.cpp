@@ -159,6 +159,26 @@ TEST_CASE("mistakes in dataset.toml name file, key and remedy") {
   CHECK(contains(toml_error("width = 64", "width = = 64"), "line 6: not valid TOML"));
 }
 
+TEST_CASE("a key or table that is misspelt is named, also where it is the reason of an error") {
+  const std::string table = toml_error("[camera]", "[kamera]");
+  CHECK(contains(table, "dataset.toml: camera: the table is missing; write [camera]"));
+  CHECK(contains(table, "kamera: unknown table, not used; did you mean camera?"));
+  CHECK(contains(toml_error("[mount]", "[munt]"), "munt: unknown table, not used; did you mean mount?"));
+  const std::string key = toml_error("focal_px", "focal_pix");
+  CHECK(contains(key, "camera.focal_px: is missing"));
+  CHECK(contains(key, "camera.focal_pix: unknown key, not used; did you mean focal_px?"));
+}
+
+TEST_CASE("an unknown key is told once, with a count") {
+  const TempFolder folder;
+  const std::string line = R"({"image": "a.png", "mount": {"pich_deg": 1}})";
+  write_set(folder, replaced(good_toml, "roll_deg", "rol_deg"), line + "\n" + line + "\n" + line + "\n");
+  const DataSet set = read_dataset(folder.path());
+  REQUIRE(set.warnings.size() == 2);
+  CHECK(contains(set.warnings[0], "dataset.toml: mount.rol_deg: unknown key, not used; did you mean roll_deg?"));
+  CHECK(contains(set.warnings[1], "frames.jsonl: line 1 and 2 more: mount.pich_deg: unknown key"));
+}
+
 TEST_CASE("mistakes in frames.jsonl name the line too") {
   CHECK(contains(line_error("\"pitch_deg\": 31.0", "\"height_m\": -1"),
                  "frames.jsonl: line 2: mount.height_m: is -1, outside"));

@@ -52,6 +52,24 @@ TEST_CASE("sequence: one update a frame, and the same again") {
   }
 }
 
+TEST_CASE("sequence: the odometry and the kidnap of a frame that cannot be used are the next one's") {
+  DataSet set = walk();
+  set.frames[2].path = "/no/such/image.png";
+  set.frames[2].kidnap = true;
+  const Pose2 sum = compose(set.frames[2].odometry, set.frames[3].odometry);
+  const SetResult result = evaluate(set, {});
+  REQUIRE(result.frames.size() == set.frames.size());
+  CHECK(contains(result.frames[2].failure, "no such image"));
+  CHECK(result.frames[2].shows == 0);
+  CHECK(result.frames[3].failure.empty());
+  CHECK(result.frames[3].frame.kidnap);
+  CHECK(result.frames[3].frame.odometry.x == sum.x);
+  CHECK(result.frames[3].frame.odometry.theta == sum.theta);
+  CHECK(result.frames[4].frame.odometry.x == set.frames[4].odometry.x);
+  CHECK_FALSE(result.frames[4].frame.kidnap);
+  CHECK(summarize(result).failed == 1);
+}
+
 TEST_CASE("no localization ever sees the truth") {
   DataSet set = walk();
   const SetResult with = evaluate(set, {});

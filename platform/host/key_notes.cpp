@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Unknown keys of a data set, each told once.
+#include "platform/host/key_notes.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+namespace touchline::host {
+namespace {
+
+constexpr std::size_t most_sentences = 20;  // a file with more is of another kind
+
+}  // namespace
+
+void KeyNotes::add(const KeyReader& keys, const nlohmann::json* own) {
+  for (const auto& unknown : keys.unknown_keys()) {
+    if (own != nullptr && !own->contains(unknown.key.substr(keys.prefix().size()))) continue;
+    const auto same = [&](const Note& note) { return note.key == unknown.key; };
+    const auto found = std::find_if(notes_.begin(), notes_.end(), same);
+    if (found != notes_.end()) {
+      ++found->repeats;
+    } else {
+      notes_.push_back({unknown.key, keys.where(), unknown.text, 0});
+    }
+  }
+}
+
+std::vector<std::string> KeyNotes::sentences() const {
+  std::vector<std::string> out;
+  for (const auto& note : notes_) {
+    if (out.size() == most_sentences) break;
+    const std::string more = note.repeats > 0 ? " and " + std::to_string(note.repeats) + " more" : std::string();
+    out.push_back(note.where + more + ": " + note.text);
+  }
+  return out;
+}
+
+void KeyNotes::fail(const HostError& error) const {
+  std::string text = error.what();
+  for (const auto& sentence : sentences()) {
+    if (sentence.find("did you mean") != std::string::npos) text += " (note: " + sentence + ")";
+  }
+  throw HostError(text);
+}
+
+}  // namespace touchline::host

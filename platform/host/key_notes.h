@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Unknown keys of a data set, each told once, however many lines of frames.jsonl have it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "platform/host/host_error.h"
+#include "platform/host/key_reader.h"
+
+namespace touchline::host {
+
+class KeyNotes {
+ public:
+  /// Of a table that was laid over another, `own` alone counts.
+  void add(const KeyReader& keys, const nlohmann::json* own = nullptr);
+  /// "file: line 3 and 99 more: mount.pich_deg: unknown key, not used; did you mean pitch_deg?"
+  [[nodiscard]] std::vector<std::string> sentences() const;
+  /// The error may come from a key that was misspelt: what is known about such keys is told with it.
+  [[noreturn]] void fail(const HostError& error) const;
+
+ private:
+  struct Note {
+    std::string key;
+    std::string where;  // first seen
+    std::string text;
+    int repeats;
+  };
+  std::vector<Note> notes_;
+};
+
+}  // namespace touchline::host
