@@ -30,6 +30,9 @@ void section(std::ostream& out, const char* title, const std::string& text) {
 int run_robot(const RunCommand& command, std::ostream& err) {
   const Signals signals;
   Daemon daemon(command.file, STDOUT_FILENO, STDERR_FILENO);
+  for (const std::string& sentence : daemon.file().assumed) {
+    err << "touchline: note: " << command.file << ": " << sentence << "\n" << std::flush;
+  }
   const std::string problems = apply_realtime(daemon.file().realtime);
   if (!problems.empty()) err << "touchline: " << problems << std::flush;
   ServiceNotifier notifier;
@@ -50,11 +53,12 @@ int check_robot(const std::string& path, std::ostream& out) {
     if (!error.empty()) throw host::HostError(std::string(path).append(": output.udp: ").append(error));
   }
   const bool replayed = file.camera_backend == CameraBackend::replay;
-  out << path << " is good.\n  camera  " << (replayed ? "replay of " + file.replay_folder.string() : file.camera.device)
-      << ", " << file.camera.width << "x" << file.camera.height << "\n  imu     " << name_of(file.imu_backend)
-      << "\n  gait    " << name_of(file.gait_backend) << "\n  panel   "
-      << (file.panel_backend == PanelBackend::gpiod ? "gpiod" : "none") << "\n  field   " << file.robot.field.length
-      << " x " << file.robot.field.width << " m\n  output  "
+  out << path << (file.assumed.empty() ? " is good.\n" : " has no mistake, but is not all about your robot:\n");
+  for (const std::string& sentence : file.assumed) out << "  note: " << sentence << "\n";
+  out << "  camera  " << (replayed ? "replay of " + file.replay_folder.string() : file.camera.device) << ", "
+      << file.camera.width << "x" << file.camera.height << "\n  imu     " << name_of(file.imu_backend) << "\n  gait    "
+      << name_of(file.gait_backend) << "\n  panel   " << (file.panel_backend == PanelBackend::gpiod ? "gpiod" : "none")
+      << "\n  field   " << file.robot.field.length << " x " << file.robot.field.width << " m\n  output  "
       << (file.output.standard_output ? "standard output" : "none") << ", " << file.output.udp.size()
       << " UDP addresses\n";
   return 0;

@@ -15,7 +15,8 @@ struct RunCommand {
 /// Runs until SIGTERM, SIGINT, or the end of a recording. Throws host::HostError before the first frame only.
 int run_robot(const RunCommand& command, std::ostream& err);
 
-/// Reads the file, says what the robot would do, opens no device. Throws host::HostError.
+/// Reads the file, says what the robot would do and which defaults stand for the robot's own lens, mount and field;
+/// opens no device. Throws host::HostError.
 int check_robot(const std::string& file, std::ostream& out);
 
 /// What is plugged in, with the names that the file wants.

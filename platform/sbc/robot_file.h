@@ -47,6 +47,7 @@ struct RobotFile {
   ButtonTiming button;
   OutputConfig output;
   RealtimeConfig realtime;
+  std::vector<std::string> assumed;  // sentences about lens, mount and field where they are the defaults
 };
 
 /// Reads and checks the whole file. Throws host::HostError: it names file, line, key and remedy. `keys`, when not null,

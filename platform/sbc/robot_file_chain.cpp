@@ -55,11 +55,13 @@ void read_prior(TomlTable table, Prior& prior) {
 void read_field(TomlTable table, RobotFile& file) {
   FieldDimensions& field = file.robot.field;
   const std::vector<std::string> presets{"", "acyut-5x3", "kidsize-9x6", "small-2026", "middle-2026"};
+  const bool named = table.has("preset") || table.has("length_m");
   const std::size_t preset = table.choice("preset", presets, 0);
   if (preset != 0) {
     field = *field_preset(presets[preset]);
   } else if (file.camera_backend != CameraBackend::replay) {
     field = *field_preset("small-2026");
+    if (!named) file.assumed.emplace_back("[field] is the default, preset = \"small-2026\"; name yours");
   }
   const auto metres = [&](const char* key, float& value) { value = table.real(key, 0.0, 20.0, value); };
   metres("length_m", field.length);

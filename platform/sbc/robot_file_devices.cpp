@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of the robot's devices: camera, lens, mount, IMU, gait link, panel.
 #include <algorithm>
+#include <sstream>
 
 #include "platform/host/dataset.h"
 #include "platform/sbc/robot_file_tables.h"
@@ -17,6 +18,12 @@ CameraControl read_control(TomlTable& table, const char* mode_key, const char* v
   control.value = table.integer(value_key, 0, high, 0);
   if (control.mode == Mode::fixed && !has_value) table.fail(value_key, "is missing; a fixed control needs its value");
   return control;
+}
+
+std::string shown(float value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 /// What the data set knows: size, lens, mount and field. Keys of the file come before it.
@@ -117,13 +124,15 @@ void read_camera(TomlTable table, RobotFile& file, const std::filesystem::path& 
 
 void read_lens(TomlTable table, RobotFile& file) {
   LensParameters& lens = file.robot.lens;
-  if (file.camera_backend != CameraBackend::replay) {  // a plain lens of 90 degrees across, until the robot's is known
+  const bool replayed = file.camera_backend == CameraBackend::replay;
+  if (!replayed) {  // a plain lens of 90 degrees across, until the robot's is known
     lens.focal_px = static_cast<float>(file.camera.width) * 0.5F;
     lens.cx = static_cast<float>(file.camera.width) * 0.5F;
     lens.cy = static_cast<float>(file.camera.height) * 0.5F;
     lens.max_theta = radians(70.0F);
     lens.model = LensModel::rectilinear;
   }
+  const LensParameters plain = lens;
   const std::vector<std::string> models{"equidistant",    "equisolid", "rectilinear",
                                         "kannala_brandt", "barrel",    "polynomial"};
   lens.model = static_cast<LensModel>(table.choice("model", models, static_cast<std::size_t>(lens.model)));
@@ -141,10 +150,16 @@ void read_lens(TomlTable table, RobotFile& file) {
   copy("a", 2, lens.a);
   copy("b", 2, lens.b);
   table.finish();
+  if (!replayed && lens.model == plain.model && lens.focal_px == plain.focal_px && lens.cx == plain.cx &&
+      lens.cy == plain.cy && lens.max_theta == plain.max_theta) {
+    file.assumed.push_back("[lens] is the default, a plain lens with model = \"rectilinear\" and focal_px = " +
+                           shown(lens.focal_px) + "; calibrate yours");
+  }
 }
 
 void read_mount(TomlTable table, RobotFile& file) {
   CameraMount& mount = file.robot.mount;
+  const CameraMount rest{};
   mount.x = table.real("x_m", -2.0, 2.0, mount.x);
   mount.y = table.real("y_m", -2.0, 2.0, mount.y);
   mount.height = table.real("height_m", 0.05, 3.0, mount.height);
@@ -159,6 +174,11 @@ void read_mount(TomlTable table, RobotFile& file) {
   mount.tilt_pivot.z = table.real("pivot_height_m", 0.0, 3.0, mount.tilt_pivot.z);
   file.robot.fixed_head = table.flag("fixed_head", file.robot.fixed_head);
   table.finish();
+  if (file.camera_backend != CameraBackend::replay && mount.height == rest.height && mount.pitch == rest.pitch &&
+      mount.roll == rest.roll && mount.yaw == rest.yaw && mount.x == rest.x && mount.y == rest.y) {
+    file.assumed.push_back("[mount] is the default, height_m = " + shown(mount.height) +
+                           " and pitch_deg = 0; measure yours");
+  }
 }
 
 void read_imu(TomlTable table, RobotFile& file) {

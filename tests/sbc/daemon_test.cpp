@@ -189,6 +189,12 @@ TEST_CASE("check says what the robot would do, or what is wrong") {
   std::ostringstream out;
   CHECK(check_robot(fixtures + "/robot-replay.toml", out) == 0);
   CHECK(out.str().find("is good") != std::string::npos);
+  CHECK(out.str().find("note:") == std::string::npos);
+  const host::TempFolder folder;
+  std::ostringstream empty;
+  CHECK(check_robot(folder.write("robot.toml", "").string(), empty) == 0);
+  CHECK(empty.str().find("is good") == std::string::npos);
+  CHECK(empty.str().find("note: [lens] is the default") != std::string::npos);
   const host::TempFolder temp;
   const auto path = temp.write("robot.toml", "[output]\nudp = [\"nowhere\"]\n");
   CHECK_THROWS_AS(check_robot(path.string(), out), host::HostError);

@@ -80,6 +80,26 @@ TEST_CASE("the example is good, names every key, and holds the defaults") {
   CHECK(empty.output.udp.empty());
 }
 
+TEST_CASE("lens, mount and field that are the defaults are named, for no robot has them by accident") {
+  const host::TempFolder temp;
+  const auto assumed = [&](const std::string& text) {
+    std::string all;
+    for (const auto& sentence : read_robot_file(temp.write("robot.toml", text)).assumed) all += sentence + "\n";
+    return all;
+  };
+  const std::string empty = assumed("");
+  CHECK(contains(empty, "[lens] is the default, a plain lens with model = \"rectilinear\" and focal_px = 320"));
+  CHECK(contains(empty, "[mount] is the default, height_m = 0.5 and pitch_deg = 0"));
+  CHECK(contains(empty, "[field] is the default, preset = \"small-2026\""));
+  CHECK_FALSE(contains(assumed("[lens]\nfocal_px = 300\n"), "[lens]"));
+  CHECK_FALSE(contains(assumed("[mount]\nheight_m = 0.58\n"), "[mount]"));
+  CHECK_FALSE(contains(assumed("[field]\npreset = \"small-2026\"\n"), "[field]"));
+  CHECK(assumed("[lens]\nfocal_px = 300\n[mount]\npitch_deg = 30\n[field]\npreset = \"kidsize-9x6\"\n").empty());
+  const std::string copied = assumed(read_text(std::string(TOUCHLINE_SOURCE_DIR) + "/platform/sbc/robot.toml"));
+  CHECK(contains(copied, "[lens]"));  // the example, not yet edited
+  CHECK(contains(copied, "[mount]"));
+}
+
 TEST_CASE("an unknown key is told with its line and the nearest right one") {
   CHECK(contains(error_of("[camera]\nwith_px = 640\n"),
                  ":2: camera.with_px is no key of this program; did you mean width_px?"));
