@@ -40,6 +40,8 @@ class YawHistory {
   [[nodiscard]] MonotonicNs newest_time() const { return curve_.newest_time(); }
   [[nodiscard]] const TorsoAttitude& newest() const { return curve_.newest(); }
   [[nodiscard]] std::uint32_t jumps() const { return jumps_; }
+  /// What the curve has more than the device reads: the zeros that the device has changed, summed.
+  [[nodiscard]] float offset() const { return offset_; }
 
  private:
   /// A quarter of a second at 1 kHz, 2.5 s at 100 Hz.

@@ -52,11 +52,17 @@ Status Localizer::configure(const LocalizerConfig& config, const Field& field, c
     if (what != nullptr) *what = bad;
     return Status::invalid_argument;
   }
+  const bool running = configured_ && frames_ >= 0;
+  const bool same_cloud = config.particles == config_.particles && config.model == config_.model;
   config_ = config;
   field_ = field;
   map_.build(field_);
   configured_ = true;
-  frames_ = -1;  // a reset has to follow
+  if (!running) {
+    frames_ = -1;  // a reset has to follow
+  } else if (!same_cloud) {
+    draw_around_last();
+  }
   return Status::ok;
 }
 
@@ -70,6 +76,17 @@ void Localizer::reset(const Prior& prior, std::uint64_t seed) {
   cloud_ = 0;
   belief_ = 0.0F;
   steady_frames_ = 0;
+  draw_from_prior(prior);
+}
+
+/// Another number of particles, or another model of them, while the robot plays.
+void Localizer::draw_around_last() {
+  Prior prior;
+  if (last_.valid) {
+    const PoseCovariance& p = last_.covariance;
+    prior = {PriorKind::pose, last_.pose, math::sqrt(math::max(p.xx, p.yy)), math::sqrt(p.tt)};
+  }
+  cloud_ = 0;
   draw_from_prior(prior);
 }
 

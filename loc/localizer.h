@@ -39,6 +39,7 @@ struct LocalizerInput {
 class Localizer {
  public:
   /// invalid_argument: a value is not finite or out of range; `what` names the key, when not null, and nothing changes.
+  /// The first call asks for a reset(); a later one keeps the pose, so that thresholds can change in a match.
   Status configure(const LocalizerConfig& config, const Field& field, const char** what = nullptr);
   /// Forgets the pose and draws the particles from `prior`. The seed is the caller's: the same seed, the same poses.
   void reset(const Prior& prior, std::uint64_t seed);
@@ -63,6 +64,7 @@ class Localizer {
   using ModeList = StaticVector<Mode, max_clusters>;
 
   void draw_from_prior(const Prior& prior);
+  void draw_around_last();
   [[nodiscard]] Pose2 random_pose(const YawEvidence& yaw);
   void predict(const LocalizerInput& input);
   void update_full(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate);

@@ -33,6 +33,7 @@ void RobotLoop::on_button(ButtonPress press, MonotonicNs now) {
   if (!sensors_.yaw_at(now, yaw)) return;  // no yaw to store; the light shows the fault
   goal_yaw_known_ = true;
   goal_yaw_ = yaw;
+  ++goal_yaw_presses_;
 }
 
 /// Opens a camera that is missing, and anew one that has stalled. True when it is open.

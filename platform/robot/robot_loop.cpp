@@ -30,7 +30,10 @@ Status RobotLoop::configure_parts(const RobotConfig& config, const char** what) 
 
 Status RobotLoop::configure(const RobotConfig& config, const char** what) {
   const Status status = configure_parts(config, what);
-  if (status != Status::ok) return status;
+  if (status != Status::ok) {
+    if (configured_) (void)configure_parts(config_, nullptr);  // the parts that had taken it over
+    return status;
+  }
   config_ = config;
   events_.set_hold(config.transient);
   if (configured_) return Status::ok;

@@ -45,6 +45,10 @@ class RobotLoop {
   [[nodiscard]] const VisionResult& vision() const { return vision_; }
   [[nodiscard]] bool goal_yaw_known() const { return goal_yaw_known_; }
   [[nodiscard]] float goal_yaw() const { return goal_yaw_; }
+  /// How often the button has stored it.
+  [[nodiscard]] std::uint32_t goal_yaw_presses() const { return goal_yaw_presses_; }
+  /// What the IMU as it is now reads, in (-pi, pi], when the robot looks at the goal: good for a later start, too.
+  [[nodiscard]] float goal_yaw_reading() const { return wrap_angle(goal_yaw_ - sensors_.yaw_offset()); }
 
  private:
   Status configure_parts(const RobotConfig& config, const char** what);
@@ -88,6 +92,7 @@ class RobotLoop {
   std::uint64_t reports_ = 0;
   std::uint64_t frames_ = 0;
   float goal_yaw_ = 0.0F;
+  std::uint32_t goal_yaw_presses_ = 0;
 
   Status camera_status_ = Status::not_ready;  // of the last open()
   bool configured_ = false;

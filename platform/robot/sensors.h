@@ -34,6 +34,8 @@ class Sensors {
 
   /// False when the IMU has said nothing about this time.
   bool yaw_at(MonotonicNs time, float& yaw) const;
+  /// What yaw_at() has more than the device reads.
+  [[nodiscard]] float yaw_offset() const { return yaw_.offset(); }
   [[nodiscard]] PathPoint path_at(MonotonicNs time) const;
   [[nodiscard]] CameraAttitude attitude_at(MonotonicNs time) const;
   /// The gait link tells the camera's attitude, but has just missed some frames: a head that sways is somewhere else by

@@ -48,6 +48,53 @@ TEST_CASE("the yaw is used once the short press has stored the goal's") {
   CHECK(robot.report.yaw_used);
 }
 
+TEST_CASE("the goal's yaw can be told as the device reads it, through a new zero of the device") {
+  TestRobot robot;
+  robot.imu.yaw = 0.75F;
+  robot.run(second);
+  CHECK(robot.loop.goal_yaw_presses() == 0);
+  robot.panel.presses.add({robot.clock.now(), ButtonPress::short_press});
+  robot.run(second);
+  CHECK(robot.loop.goal_yaw_presses() == 1);
+  CHECK(robot.loop.goal_yaw_reading() == doctest::Approx(0.75));
+  robot.imu.yaw = -2.25F;  // its zero is another from now on: the robot has not moved
+  robot.run(second);
+  CHECK(robot.loop.goal_yaw() == doctest::Approx(0.75));
+  CHECK(robot.loop.goal_yaw_reading() == doctest::Approx(-2.25));
+}
+
+TEST_CASE("thresholds change while the robot plays: the pose stays") {
+  TestRobot robot;
+  robot.run(4 * second);
+  REQUIRE(robot.error() < 0.15F);
+  RobotConfig config = scene().config;
+  config.vision.spur_px += 2;
+  for (const int particles : {config.localizer.particles, 300, 150}) {
+    const std::uint64_t before = robot.report.frames;
+    config.localizer.particles = particles;
+    REQUIRE(robot.loop.configure(config) == Status::ok);
+    robot.run(500 * one_millisecond);
+    CHECK(robot.report.frames >= before + 2);
+    CHECK(robot.report.estimate.confidence > 0.5F);
+    CHECK(robot.error() < 0.15F);
+  }
+}
+
+TEST_CASE("a configuration that is refused leaves nothing behind") {
+  TestRobot robot;
+  robot.run(second);
+  const std::uint64_t before = robot.report.frames;
+  RobotConfig config = scene().config;
+  config.vision.frame_width /= 2;
+  config.vision.frame_height /= 2;
+  config.localizer.particles = -1;
+  const char* what = nullptr;
+  CHECK(robot.loop.configure(config, &what) == Status::invalid_argument);
+  robot.run(second);
+  CHECK(robot.report.frames > before + 3);
+  CHECK_FALSE(robot.has(Fault::camera_size));
+}
+
 TEST_CASE("the long press starts from nothing") {
   TestRobot robot;
   robot.run(4 * second);
