@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/sbc/daemon.h"
 
+#include <cerrno>
 #include <cstring>
 
 #include "hal/linux/gpio_panel.h"
@@ -80,7 +81,9 @@ Daemon::Daemon(const std::filesystem::path& path, int out, int log)
       localizer_(std::make_unique<Localizer>()),
       loop_(std::make_unique<RobotLoop>(devices_.devices(), storage_->memory(), *localizer_)),
       publisher_(file_.output.standard_output ? out : -1, file_.output.udp),
-      log_(log) {
+      log_(log),
+      goal_yaw_file_(file_.panel_backend == PanelBackend::none ? "" : file_.goal_yaw_file, file_.imu_keeps_zero) {
+  load_goal_yaw();
   const char* what = nullptr;
   if (loop_->configure(file_.robot, &what) != Status::ok) {
     throw host::HostError(path.string() +
@@ -89,9 +92,41 @@ Daemon::Daemon(const std::filesystem::path& path, int out, int log)
 }
 Daemon::~Daemon() = default;
 
+void Daemon::load_goal_yaw() {
+  const GoalYawFile::Loaded loaded = goal_yaw_file_.load();
+  if (!loaded.problem.empty()) log_.line(now(), "the goal's yaw: ", loaded.problem, "");
+  if (!loaded.found) return;
+  file_.robot.goal_yaw_known = true;
+  file_.robot.goal_yaw = loaded.yaw;
+  goal_yaw_is_kept_ = true;
+  kept_goal_yaw_ = loaded.yaw;
+  log_.line(now(), "the goal's yaw is that of ", goal_yaw_file_.path(), "");
+}
+
+/// After a press, and when the device has got a new zero.
+void Daemon::keep_goal_yaw() {
+  if (!goal_yaw_file_.used() || (loop_->goal_yaw_presses() == 0 && !goal_yaw_is_kept_)) return;
+  const float yaw = loop_->goal_yaw_reading();
+  if (goal_yaw_is_kept_ && math::abs(angle_difference(yaw, kept_goal_yaw_)) < 1e-4F) return;
+  // A disk that is full, or an IMU that never finds its zero, is not asked every turn; a press is obeyed at once.
+  if (loop_->goal_yaw_presses() == kept_presses_ && now() < next_save_) return;
+  kept_presses_ = loop_->goal_yaw_presses();
+  next_save_ = now() + 10 * one_second;
+  if (goal_yaw_file_.save(yaw)) {
+    goal_yaw_is_kept_ = true;
+    goal_yaw_told_ = false;
+    kept_goal_yaw_ = yaw;
+    log_.line(now(), "the goal's yaw is kept in ", goal_yaw_file_.path(), "");
+  } else if (!goal_yaw_told_) {
+    goal_yaw_told_ = true;
+    log_.line(now(), "the goal's yaw cannot be kept in ", goal_yaw_file_.path(), std::strerror(errno));
+  }
+}
+
 bool Daemon::turn() {
   const Status status = loop_->turn(report_);
   if (status == Status::end_of_data) return false;
+  keep_goal_yaw();
   if (status != Status::ok) return true;
   ++published_;
   if (!publisher_.publish(line_.format(report_))) loop_->note_output_failure();

@@ -9,6 +9,7 @@
 
 #include "platform/robot/robot_loop.h"
 #include "platform/sbc/fault_log.h"
+#include "platform/sbc/goal_yaw_file.h"
 #include "platform/sbc/publisher.h"
 #include "platform/sbc/report_line.h"
 #include "platform/sbc/robot_file.h"
@@ -53,6 +54,9 @@ class Daemon {
   [[nodiscard]] MonotonicNs now() const { return devices_.devices().clock->now(); }
 
  private:
+  void load_goal_yaw();
+  void keep_goal_yaw();
+
   std::filesystem::path path_;
   RobotFile file_;
   DeviceSet devices_;
@@ -64,6 +68,13 @@ class Daemon {
   FaultLog log_;
   RobotReport report_;
   std::uint64_t published_ = 0;
+
+  GoalYawFile goal_yaw_file_;
+  bool goal_yaw_is_kept_ = false;
+  bool goal_yaw_told_ = false;  // that it cannot be kept
+  float kept_goal_yaw_ = 0.0F;
+  std::uint32_t kept_presses_ = 0;
+  MonotonicNs next_save_ = 0;
 };
 
 }  // namespace touchline::sbc

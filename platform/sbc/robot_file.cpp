@@ -11,7 +11,8 @@ namespace touchline::sbc {
 namespace {
 
 toml::table parse(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path))
+  std::error_code unknown;  // then the open below says why
+  if (std::filesystem::is_directory(path, unknown))
     throw host::HostError(path.string() + ": is a folder; name the robot's TOML file");
   if (!std::ifstream(path))
     throw host::HostError(path.string() + ": cannot be read; give the path of the robot's TOML file");
@@ -64,7 +65,7 @@ RobotFile read_robot_file(const std::filesystem::path& path, std::vector<std::st
   read_mount(top.table("mount"), file);
   read_imu(top.table("imu"), file);
   read_gait(top.table("gait"), file);
-  read_panel(top.table("panel"), file);
+  read_panel(top.table("panel"), file, path.parent_path());
   read_vision(top.table("vision"), file);
   read_localization(top.table("localization"), file);
   read_output(top.table("output"), file);

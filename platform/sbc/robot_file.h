@@ -44,6 +44,8 @@ struct RobotFile {
   SerialGaitLinkConfig gait;
   PanelBackend panel_backend = PanelBackend::none;
   GpioLinesConfig panel;
+  std::filesystem::path goal_yaw_file;  // where the goal's yaw is kept; empty: nowhere
+  bool imu_keeps_zero = false;
   ButtonTiming button;
   OutputConfig output;
   RealtimeConfig realtime;

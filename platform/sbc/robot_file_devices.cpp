@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "platform/host/dataset.h"
+#include "platform/sbc/goal_yaw_file.h"
 #include "platform/sbc/robot_file_tables.h"
 
 namespace touchline::sbc {
@@ -193,6 +194,7 @@ void read_imu(TomlTable table, RobotFile& file) {
   RobotConfig& robot = file.robot;
   robot.goal_yaw_known = table.has("goal_yaw_deg") || robot.goal_yaw_known;
   robot.goal_yaw = table.angle("goal_yaw_deg", -36000.0, 36000.0, robot.goal_yaw);
+  file.imu_keeps_zero = table.flag("keeps_zero", file.imu_keeps_zero);
   robot.imu_stale = table.milliseconds("stale_ms", 10.0, 10000.0, robot.imu_stale);
   robot.has_imu = file.imu_backend != ImuBackend::none;
   if (file.imu_backend == ImuBackend::hidapi) {
@@ -227,7 +229,7 @@ void read_gait(TomlTable table, RobotFile& file) {
   table.finish();
 }
 
-void read_panel(TomlTable table, RobotFile& file) {
+void read_panel(TomlTable table, RobotFile& file, const std::filesystem::path& folder) {
   GpioLinesConfig& panel = file.panel;
   file.panel_backend = table.choice("backend", {"none", "gpiod"}, 0) == 1 ? PanelBackend::gpiod : PanelBackend::none;
   panel.chip = table.text("chip", panel.chip);
@@ -238,6 +240,7 @@ void read_panel(TomlTable table, RobotFile& file) {
   panel.led_active_low = table.flag("led_active_low", panel.led_active_low);
   file.button.debounce = table.milliseconds("debounce_ms", 0.0, 1000.0, file.button.debounce);
   file.button.long_press = table.milliseconds("long_press_ms", 100.0, 10000.0, file.button.long_press);
+  file.goal_yaw_file = goal_yaw_path(table.text("state_file", ""), folder);
   file.robot.has_panel = file.panel_backend != PanelBackend::none;
   if (file.robot.has_panel && panel.button_line < 0 && panel.led_line < 0) {
     table.fail("button_line", "and led_line are both missing; give one, or set backend = \"none\"");

@@ -13,7 +13,7 @@ void read_lens(TomlTable table, RobotFile& file);
 void read_mount(TomlTable table, RobotFile& file);
 void read_imu(TomlTable table, RobotFile& file);
 void read_gait(TomlTable table, RobotFile& file);
-void read_panel(TomlTable table, RobotFile& file);
+void read_panel(TomlTable table, RobotFile& file, const std::filesystem::path& folder);
 void read_vision(TomlTable table, RobotFile& file);
 void read_localization(TomlTable table, RobotFile& file);
 void read_output(TomlTable table, RobotFile& file);

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// `touchline run` as a process of its own: signals are obeyed in time. Waits end at the event; the deadlines are those
+// that the service promises (SIGTERM), or only there so that a failure does not hang.
+#include <doctest/doctest.h>
+
+#include <csignal>
+
+#include "tests/host/temp_folder.h"
+#include "tests/support/child_process.h"
+
+namespace touchline::sbc {
+namespace {
+
+constexpr int promised_end_ms = 1000;
+constexpr int patience_ms = 30000;
+
+const std::string program = TOUCHLINE_PROGRAM;
+/// A robot whose camera is not there: it runs by the real clock and says so ten times a second.
+const std::string no_camera = "[camera]\ndevice = \"/dev/no-such-camera\"\n[realtime]\nlock_memory = false\n";
+
+TEST_CASE("SIGTERM and SIGINT end the daemon within a second, with status 0") {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const host::TempFolder temp;
+    test::ChildProcess daemon({program, "run", temp.write("robot.toml", no_camera).string()});
+    REQUIRE(daemon.wait_for_lines(1, patience_ms));
+    CHECK_FALSE(daemon.wait_for_end(0).has_value());
+    daemon.send(signal);
+    CHECK(daemon.wait_for_end(promised_end_ms) == 0);
+  }
+}
+
+TEST_CASE("SIGTERM ends a daemon that is busy with frames, and one whose reader is asleep") {
+  const host::TempFolder temp;
+  const std::string fixtures = std::string(TOUCHLINE_SOURCE_DIR) + "/fixtures";
+  const auto path = temp.write("robot.toml", "[camera]\nbackend = \"replay\"\nreplay_folder = \"" + fixtures +
+                                                 "/sim-walk\"\nreplay_loops = 1000000\n");
+  test::ChildProcess daemon({program, "run", path.string()});
+  REQUIRE(daemon.wait_for_lines(3, patience_ms));
+  daemon.send(SIGTERM);
+  CHECK(daemon.wait_for_end(promised_end_ms) == 0);
+}
+
+TEST_CASE("SIGHUP reads the thresholds again; a broken file changes nothing and is told with its line") {
+  const host::TempFolder temp;
+  const auto path = temp.write("robot.toml", no_camera);
+  test::ChildProcess daemon({program, "run", path.string()});
+  REQUIRE(daemon.wait_for_lines(1, patience_ms));
+  temp.write("robot.toml", no_camera + "[localization]\nparticles = 300\n");
+  daemon.send(SIGHUP);
+  CHECK(daemon.wait_for_log("thresholds read again from " + path.string(), patience_ms));
+  temp.write("robot.toml", no_camera + "[localization]\nparticles = \n");
+  daemon.send(SIGHUP);
+  CHECK(daemon.wait_for_log("thresholds stay: " + path.string() + ":6: ", patience_ms));
+  const std::size_t before = daemon.output().size();
+  CHECK(daemon.wait_for_lines(5, patience_ms));
+  CHECK(daemon.output().size() > before);
+  daemon.send(SIGTERM);
+  CHECK(daemon.wait_for_end(promised_end_ms) == 0);
+}
+
+TEST_CASE("a file that is wrong at start is no daemon but a message and status 2") {
+  const host::TempFolder temp;
+  test::ChildProcess daemon({program, "run", temp.write("robot.toml", "[camera]\nwidht_px = 3\n").string()});
+  CHECK(daemon.wait_for_end(patience_ms) == 2);
+  CHECK(daemon.wait_for_log("did you mean width_px?", patience_ms));
+}
+
+}  // namespace
+}  // namespace touchline::sbc
