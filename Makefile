@@ -65,9 +65,9 @@ fuzz:  ## each decoder and reader against random input, 10 minutes each (SECONDS
 	@bash $(NEED) build backends check
 	@bash tests/fuzz/fuzz.sh --keep $(or $(SECONDS),600)
 
-vmtest: build  ## every backend and the whole robot on a real kernel: Debian's, in QEMU, with virtual devices
-	@bash $(NEED) vm || true
-	@bash tests/vm/vm.sh $(BUILD)
+vmtest: build  ## make vmtest [ARCH=arm64]: every backend and the whole robot on Debian's kernel in QEMU, with virtual devices
+	@bash $(NEED) vm $(if $(filter arm64,$(ARCH)),cross bare) || true
+	@bash tests/vm/vm.sh $(BUILD) $(or $(ARCH),amd64)
 
 format:  ## clang-format over all sources
 	@bash $(NEED) check

@@ -175,9 +175,9 @@ void test_imu() {
 
 void test_gait() {
   const MonotonicNs none = 0;
-  SerialGaitLink link({"/dev/ttyS2", 115200, none}, clock_now);
+  SerialGaitLink link({"/dev/gait-robot", 115200, none}, clock_now);
   check(link.open() == Status::ok, "gait: the port opens", link.problem());
-  const int sender = open_raw("/dev/ttyS1");
+  const int sender = open_raw("/dev/gait-controller");
   check(sender >= 0, "gait: the other end opens");
   int samples = 0;
   float x = 0.0F;

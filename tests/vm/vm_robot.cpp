@@ -39,7 +39,7 @@ struct Stage {
   bool set_up() {
     if (!output.open()) return std::printf("FAIL vivid's output cannot be used\n"), false;
     if (!imu.plug_in() || !panel.plug_in()) return std::printf("FAIL uhid cannot be used\n"), false;
-    serial = open_raw("/dev/ttyS1");
+    serial = open_raw("/dev/gait-controller");
     return serial >= 0;
   }
   void send_gait(const WalkReading& r, std::uint8_t flags) {

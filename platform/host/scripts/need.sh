@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Debian packages that a make target misses: as root, or by sudo where it asks no password. Else it prints
 # the exact command and fails. Says nothing and touches nothing when all is there.
-#   need.sh GROUP...    groups: build test check backends vm bench profile
+#   need.sh GROUP...    groups: build test check backends vm bench profile cross bare
 set -euo pipefail
 
 packages=()
@@ -18,7 +18,7 @@ for group in "$@"; do
     profile) packages+=(valgrind) ;;
     cross) packages+=(g++-aarch64-linux-gnu g++-arm-linux-gnueabihf qemu-user-static) ;;
     bare) packages+=(gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib qemu-system-arm) ;;
-    *) echo "need.sh: unknown group '$group' (build test check backends bench profile cross bare)" >&2; exit 2 ;;
+    *) echo "need.sh: unknown group '$group' (build test check backends vm bench profile cross bare)" >&2; exit 2 ;;
   esac
 done
 
