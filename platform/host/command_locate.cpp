@@ -40,7 +40,7 @@ void apply_options(const LocateCommand& command, const DataSet& set, DataFrame& 
     frame.yaw = wrap_angle(as_radians(*command.yaw_deg - set.goal_yaw_deg));
   }
   if (!(mount.height > 0.0F)) {
-    throw HostError(command.camera + ": mount.height_m: is missing; add it, or give --height-m");
+    throw HostError(command.camera + ": [mount] height_m: is missing; add it, or give --height-m");
   }
 }
 

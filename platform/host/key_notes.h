@@ -16,15 +16,15 @@ class KeyNotes {
  public:
   /// Of a table that was laid over another, `own` alone counts.
   void add(const KeyReader& keys, const nlohmann::json* own = nullptr);
-  /// "file: line 3 and 99 more: mount.pich_deg: unknown key, not used; did you mean pitch_deg?"
+  /// "file:3: [mount] pich_deg: unknown key; did you mean pitch_deg? (not used; 99 more lines have it)"
   [[nodiscard]] std::vector<std::string> sentences() const;
   /// The error may come from a key that was misspelt: what is known about such keys is told with it.
   [[noreturn]] void fail(const HostError& error) const;
 
  private:
   struct Note {
-    std::string key;
-    std::string where;  // first seen
+    std::string key;    // with its table
+    std::string place;  // first seen
     std::string text;
     int repeats;
   };

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/core/angle.h"
 #include "platform/host/host_error.h"
 
 namespace touchline::host {
@@ -55,37 +56,79 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return best;
 }
 
-KeyReader::KeyReader(const nlohmann::json& table, std::string where, std::string prefix)
-    : table_(table), where_(std::move(where)), prefix_(std::move(prefix)) {
-  if (!table_.is_object()) throw HostError(where_ + ": expected keys and values here, found " + shown(table_));
+std::string unknown_word(const std::string& word, const std::vector<std::string>& known) {
+  std::string text = "\"" + word + "\" is not known; known are";
+  for (const auto& k : known) text.append(&k == &known.front() ? " " : ", ").append(k.empty() ? "\"\"" : k);
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? text : text + "; did you mean " + near + "?";
+}
+
+KeyReader::KeyReader(const nlohmann::json& table, Place place, std::string name, KeyLog* log)
+    : table_(&table), place_(std::move(place)), name_(std::move(name)), log_(log) {
+  if (table.is_object()) return;
+  throw HostError(place_of("") + (name_.empty() ? "" : "[" + name_ + "]: ") + "expected keys and values here, found " +
+                  shown(table));
+}
+
+std::string KeyReader::place_of(const std::string& key) const {
+  int line = place_.line;
+  if (place_.lines != nullptr) {
+    auto found = place_.lines->find(path_of(key));
+    if (found == place_.lines->end()) found = place_.lines->find(name_);
+    if (found != place_.lines->end()) line = found->second;
+  }
+  return place_.file + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": ";
 }
 
 void KeyReader::fail(const std::string& key, const std::string& problem) const {
-  throw HostError(where_ + ": " + prefix_ + key + ": " + problem);
+  throw HostError(place_of(key) + in_table(key) + ": " + problem);
 }
 
 const nlohmann::json* KeyReader::find(const char* key) {
   asked_.emplace_back(key);
-  const auto found = table_.find(key);
-  return found == table_.end() ? nullptr : &*found;
+  if (log_ != nullptr) log_->push_back(path_of(key));
+  const auto found = table_->find(key);
+  return found == table_->end() ? nullptr : &*found;
 }
 
 bool KeyReader::has(const char* key) { return find(key) != nullptr; }
 
-double KeyReader::number(const char* key, const NumberRange& range, std::optional<double> fallback) {
-  const auto* value = find(key);
-  if (value == nullptr) {
-    if (fallback) return *fallback;
-    fail(key, std::string("is missing; ") + range.remedy);
-  }
-  if (!value->is_number()) fail(key, "is " + shown(*value) + ", not a number; " + range.remedy);
-  const auto number = value->get<double>();
-  if (!std::isfinite(number)) fail(key, "is " + shown(*value) + "; " + range.remedy);
+double KeyReader::checked(const char* key, const nlohmann::json& value, const NumberRange& range) const {
+  const std::string limits = in_words(range.low) + " to " + in_words(range.high);
+  const std::string remedy = range.remedy != nullptr ? range.remedy : "write a number from " + limits;
+  if (!value.is_number()) fail(key, "is " + shown(value) + ", not a number; " + remedy);
+  const auto number = value.get<double>();
+  if (!std::isfinite(number)) fail(key, "is " + shown(value) + "; " + remedy);
   if (number < range.low || number > range.high) {
-    fail(key, "is " + in_words(number) + ", outside " + in_words(range.low) + " to " + in_words(range.high) + "; " +
-                  range.remedy);
+    fail(key, "is " + in_words(number) + ", outside " + limits + "; " + remedy);
   }
   return number;
+}
+
+double KeyReader::number(const char* key, const NumberRange& range, std::optional<double> fallback) {
+  const auto* value = find(key);
+  if (value != nullptr) return checked(key, *value, range);
+  if (fallback) return *fallback;
+  fail(key, std::string("is missing; ") + (range.remedy != nullptr ? range.remedy : "add it"));
+}
+
+double KeyReader::number(const char* key, double low, double high, double fallback) {
+  return number(key, NumberRange{low, high}, fallback);
+}
+
+float KeyReader::real(const char* key, double low, double high, float fallback) {
+  const auto* value = find(key);
+  return value == nullptr ? fallback : static_cast<float>(checked(key, *value, {low, high}));
+}
+
+float KeyReader::angle(const char* key, double low_deg, double high_deg, float fallback) {
+  const auto* value = find(key);
+  return value == nullptr ? fallback : radians(static_cast<float>(checked(key, *value, {low_deg, high_deg})));
+}
+
+std::int64_t KeyReader::milliseconds(const char* key, double low, double high, std::int64_t fallback) {
+  const auto* value = find(key);
+  return value == nullptr ? fallback : std::llround(checked(key, *value, {low, high}) * 1e6);
 }
 
 int KeyReader::integer(const char* key, int low, int high, const char* remedy) {
@@ -94,35 +137,80 @@ int KeyReader::integer(const char* key, int low, int high, const char* remedy) {
   return static_cast<int>(value);
 }
 
+int KeyReader::integer(const char* key, int low, int high, int fallback) {
+  const auto* value = find(key);
+  if (value == nullptr) return fallback;
+  const double number = checked(key, *value, {static_cast<double>(low), static_cast<double>(high)});
+  if (value->is_number_float()) fail(key, "is " + shown(*value) + "; write a whole number");
+  return static_cast<int>(number);
+}
+
 std::string KeyReader::text(const char* key, std::optional<std::string> fallback, const char* remedy) {
   const auto* value = find(key);
   if (value == nullptr) {
     if (fallback) return *fallback;
     fail(key, std::string("is missing; ") + remedy);
   }
-  if (!value->is_string()) fail(key, "is " + shown(*value) + ", not a text in quotes; " + remedy);
+  if (!value->is_string()) fail(key, "is " + shown(*value) + ", not a text in quotes; write it as one");
   return value->get<std::string>();
+}
+
+std::size_t KeyReader::choice(const char* key, const std::vector<std::string>& choices,
+                              std::optional<std::size_t> fallback, const char* remedy) {
+  const std::string value = text(key, fallback ? std::optional(choices[*fallback]) : std::nullopt, remedy);
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] == value) return i;
+  }
+  fail(key, unknown_word(value, choices));
 }
 
 bool KeyReader::flag(const char* key, bool fallback) {
   const auto* value = find(key);
   if (value == nullptr) return fallback;
-  if (!value->is_boolean()) fail(key, "is " + shown(*value) + "; give true or false");
+  if (!value->is_boolean()) fail(key, "is " + shown(*value) + "; write true or false");
   return value->get<bool>();
 }
 
-std::vector<double> KeyReader::numbers(const char* key, std::size_t max_count) {
-  const auto* value = find(key);
-  if (value == nullptr) fail(key, "is missing; give a list of numbers, lowest power first");
+std::vector<double> KeyReader::numbers(const char* key, std::size_t min_count, std::size_t max_count) {
   std::vector<double> out;
-  if (!value->is_array() || value->empty() || value->size() > max_count) {
-    fail(key, "must be a list of 1 to " + std::to_string(max_count) + " numbers, lowest power first");
+  const auto* value = find(key);
+  if (value == nullptr) return out;
+  const std::string count =
+      std::to_string(min_count) + (max_count > min_count ? " to " + std::to_string(max_count) : "") + " numbers";
+  if (!value->is_array()) fail(key, "is " + shown(*value) + "; write a list of " + count);
+  if (value->size() < min_count || value->size() > max_count) {
+    fail(key, "has " + std::to_string(value->size()) + " entries; write " + count);
   }
   for (const auto& element : *value) {
     if (!element.is_number() || !std::isfinite(element.get<double>())) {
-      fail(key, "holds " + shown(element) + "; give finite numbers");
+      fail(key, "holds " + shown(element) + "; write finite numbers");
     }
     out.push_back(element.get<double>());
+  }
+  return out;
+}
+
+std::vector<std::string> KeyReader::texts(const char* key) {
+  std::vector<std::string> out;
+  const auto* value = find(key);
+  if (value == nullptr) return out;
+  if (!value->is_array()) fail(key, "is " + shown(*value) + "; write a list of texts");
+  for (const auto& element : *value) {
+    if (!element.is_string()) fail(key, "holds " + shown(element) + "; write texts in quotes");
+    out.push_back(element.get<std::string>());
+  }
+  return out;
+}
+
+std::vector<std::vector<double>> KeyReader::lists(const char* key) {
+  std::vector<std::vector<double>> out;
+  const auto* value = find(key);
+  if (value == nullptr) return out;
+  if (!value->is_array()) fail(key, "is " + shown(*value) + "; write a list of lists of numbers");
+  for (const auto& entry : *value) {
+    if (!entry.is_array()) fail(key, "holds " + shown(entry) + "; write a list of lists of numbers");
+    out.emplace_back();
+    for (const auto& element : entry) out.back().push_back(checked(key, element, {-1e12, 1e12}));
   }
   return out;
 }
@@ -131,14 +219,11 @@ const nlohmann::json& KeyReader::table(const char* key) {
   static const nlohmann::json empty = nlohmann::json::object();
   const auto* value = find(key);
   if (value == nullptr) return empty;
-  if (!value->is_object()) fail(key, "is " + shown(*value) + ", not a table of keys and values");
+  if (!value->is_object()) fail(key, "is " + shown(*value) + "; write a table, [" + path_of(key) + "]");
   return *value;
 }
 
-const nlohmann::json& KeyReader::required_table(const char* key, const std::string& remedy) {
-  if (!has(key)) fail(key, "the table is missing; " + remedy);
-  return table(key);
-}
+KeyReader KeyReader::inner(const char* key) { return {table(key), place_, path_of(key), log_}; }
 
 void KeyReader::expect(std::initializer_list<const char*> keys) {
   asked_.insert(asked_.end(), keys.begin(), keys.end());
@@ -146,17 +231,25 @@ void KeyReader::expect(std::initializer_list<const char*> keys) {
 
 std::vector<UnknownKey> KeyReader::unknown_keys() const {
   std::vector<UnknownKey> unknown;
-  for (const auto& [key, value] : table_.items()) {
+  for (const auto& [key, value] : table_->items()) {
     if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
+    std::string text = in_table(key);
+    text.append(value.is_object() ? ": unknown table" : ": unknown key");
     const std::string near = nearest_word(key, asked_);
-    std::string name = prefix_;
-    name.append(key);
-    std::string text = name;
-    text.append(value.is_object() ? ": unknown table, not used" : ": unknown key, not used");
-    if (!near.empty()) text.append("; did you mean ").append(near).append("?");
-    unknown.push_back({name, text});
+    if (!near.empty()) {
+      text.append("; did you mean ").append(near).append("?");
+    } else {
+      text.append("; known are");
+      for (const auto& asked : asked_) text.append(&asked == &asked_.front() ? " " : ", ").append(asked);
+    }
+    unknown.push_back({key, place_of(key), text});
   }
   return unknown;
+}
+
+void KeyReader::finish() const {
+  const auto unknown = unknown_keys();
+  if (!unknown.empty()) throw HostError(unknown.front().place + unknown.front().text);
 }
 
 }  // namespace touchline::host

@@ -2,6 +2,7 @@
 // Reads TOML by toml++ and turns the tree into a JSON value.
 #include "platform/host/toml_file.h"
 
+#include <fstream>
 #include <sstream>
 
 #include <toml++/toml.h>
@@ -13,15 +14,21 @@ namespace touchline::host {
 namespace {
 
 // NOLINTNEXTLINE(misc-no-recursion): a tree, as deep as the file is nested; toml++ bounds that
-nlohmann::json to_json(const toml::node& node) {
+nlohmann::json to_json(const toml::node& node, const std::string& name, TomlLines& lines) {
+  if (node.source().begin.line > 0) lines.emplace(name, static_cast<int>(node.source().begin.line));
   if (const auto* table = node.as_table()) {
     auto out = nlohmann::json::object();
-    for (const auto& [key, value] : *table) out[std::string(key.str())] = to_json(value);
+    for (const auto& [key, value] : *table) {
+      const std::string word(key.str());
+      std::string path = name;
+      path.append(name.empty() ? "" : ".").append(word);
+      out[word] = to_json(value, path, lines);
+    }
     return out;
   }
   if (const auto* array = node.as_array()) {
     auto out = nlohmann::json::array();
-    for (const auto& value : *array) out.push_back(to_json(value));
+    for (const auto& value : *array) out.push_back(to_json(value, name, lines));
     return out;
   }
   if (const auto* text = node.as_string()) return text->get();
@@ -35,16 +42,21 @@ nlohmann::json to_json(const toml::node& node) {
 
 }  // namespace
 
-nlohmann::json read_toml(const std::filesystem::path& path) {
+nlohmann::json read_toml(const std::filesystem::path& path, const std::string& remedy, TomlLines& lines) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) {
+  if (std::filesystem::is_directory(path, ignored)) throw HostError(path.string() + ": is a folder; " + remedy);
+  if (!std::ifstream(path)) {
+    std::error_code unknown;  // a folder on the way may not be entered
+    const bool missing = !std::filesystem::exists(path, unknown) && !unknown;
     throw HostError(path.string() +
-                    ": no such file; a data set is a folder with dataset.toml, frames.jsonl and images");
+                    (missing ? ": no such file; " + remedy : ": cannot be opened; check its permissions"));
   }
   try {
-    return to_json(toml::parse_file(path.string()));
+    auto root = to_json(toml::parse_file(path.string()), "", lines);
+    lines.erase("");
+    return root;
   } catch (const toml::parse_error& error) {
-    throw HostError(path.string() + ": line " + std::to_string(error.source().begin.line) +
+    throw HostError(path.string() + ":" + std::to_string(error.source().begin.line) +
                     ": not valid TOML: " + std::string(error.description()) + "; correct that line");
   }
 }

@@ -50,7 +50,7 @@ int check_robot(const std::string& path, std::ostream& out) {
   const RobotFile file = read_robot_file(path);
   for (const std::string& address : file.output.udp) {
     const std::string error = udp_address_error(address);
-    if (!error.empty()) throw host::HostError(std::string(path).append(": output.udp: ").append(error));
+    if (!error.empty()) throw host::HostError(std::string(path).append(": [output] udp: ").append(error));
   }
   const bool replayed = file.camera_backend == CameraBackend::replay;
   out << path << (file.assumed.empty() ? " is good.\n" : " has no mistake, but is not all about your robot:\n");

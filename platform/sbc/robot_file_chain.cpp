@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of field, vision and localization.
+#include <nlohmann/json.hpp>
+
+#include "platform/host/chain_tables.h"
 #include "platform/sbc/robot_file_tables.h"
 
 namespace touchline::sbc {
 namespace {
 
-HsvRange read_range(TomlTable& table, const char* key, const HsvRange& fallback) {
+HsvRange read_range(KeyReader& table, const char* key, const HsvRange& fallback) {
   const std::vector<double> v = table.numbers(key, 6, 6);
   if (v.empty()) return fallback;
   for (const double value : v) {
@@ -15,7 +18,7 @@ HsvRange read_range(TomlTable& table, const char* key, const HsvRange& fallback)
   return {byte(0), byte(1), byte(2), byte(3), byte(4), byte(5)};
 }
 
-void read_body_mask(TomlTable& table, VisionConfig& vision) {
+void read_body_mask(KeyReader& table, VisionConfig& vision) {
   const auto polygons = table.lists("body_mask_px");
   if (polygons.size() > max_mask_polygons) {
     table.fail("body_mask_px", "has more than " + std::to_string(max_mask_polygons) + " polygons");
@@ -33,13 +36,13 @@ void read_body_mask(TomlTable& table, VisionConfig& vision) {
   }
 }
 
-int odd(TomlTable& table, const char* key, int fallback) {
+int odd(KeyReader& table, const char* key, int fallback) {
   const int value = table.integer(key, 1, 31, fallback);
   if (value % 2 == 0) table.fail(key, "is even; the side of a kernel is odd");
   return value;
 }
 
-void read_prior(TomlTable table, Prior& prior) {
+void read_prior(KeyReader table, Prior& prior) {
   const std::vector<std::string> kinds{"uniform", "own_half", "touch_line", "pose"};
   prior.kind = static_cast<PriorKind>(table.choice("kind", kinds, static_cast<std::size_t>(prior.kind)));
   prior.pose.x = table.real("x_m", -10.0, 10.0, prior.pose.x);
@@ -52,36 +55,18 @@ void read_prior(TomlTable table, Prior& prior) {
 
 }  // namespace
 
-void read_field(TomlTable table, RobotFile& file) {
-  FieldDimensions& field = file.robot.field;
-  const std::vector<std::string> presets{"", "acyut-5x3", "kidsize-9x6", "small-2026", "middle-2026"};
-  const bool named = table.has("preset") || table.has("length_m");
-  const std::size_t preset = table.choice("preset", presets, 0);
-  if (preset != 0) {
-    field = *field_preset(presets[preset]);
-  } else if (file.camera_backend != CameraBackend::replay) {
-    field = *field_preset("small-2026");
-    if (!named) file.assumed.emplace_back("[field] is the default, preset = \"small-2026\"; name yours");
+void read_field(KeyReader& top, RobotFile& file) {
+  std::optional<host::NamedField> fallback{{"small-2026", *field_preset("small-2026")}};
+  if (file.camera_backend == CameraBackend::replay) fallback = {"the data set's", file.robot.field};
+  const bool named = top.has("field") && (!top.find("field")->is_object() || !top.find("field")->empty());
+  file.robot.field = host::read_field(top, fallback, nullptr).dimensions;
+  tell_vision(file.robot.field, file.robot.vision);
+  if (!named && file.camera_backend != CameraBackend::replay) {
+    file.assumed.emplace_back("[field] is the default, preset = \"small-2026\"; name yours");
   }
-  const auto metres = [&](const char* key, float& value) { value = table.real(key, 0.0, 20.0, value); };
-  metres("length_m", field.length);
-  metres("width_m", field.width);
-  metres("line_width_m", field.line_width);
-  metres("circle_radius_m", field.circle_radius);
-  metres("goal_area_depth_m", field.goal_area_depth);
-  metres("goal_area_width_m", field.goal_area_width);
-  metres("penalty_area_depth_m", field.penalty_area_depth);
-  metres("penalty_area_width_m", field.penalty_area_width);
-  metres("penalty_mark_m", field.penalty_mark);
-  metres("goal_width_m", field.goal_width);
-  metres("goal_height_m", field.goal_height);
-  metres("post_diameter_m", field.post_diameter);
-  metres("border_m", field.border);
-  tell_vision(field, file.robot.vision);
-  table.finish();
 }
 
-void read_vision(TomlTable table, RobotFile& file) {
+void read_vision(KeyReader table, RobotFile& file) {
   VisionConfig& vision = file.robot.vision;
   vision.fifo_depth = table.integer("fifo_depth", 1, 4, vision.fifo_depth);  // the daemon's storage holds four
   vision.green = read_range(table, "green_hsv", vision.green);
@@ -98,7 +83,7 @@ void read_vision(TomlTable table, RobotFile& file) {
   table.finish();
 }
 
-void read_localization(TomlTable table, RobotFile& file) {
+void read_localization(KeyReader table, RobotFile& file) {
   LocalizerConfig& config = file.robot.localizer;
   config.model = table.choice("model", {"full", "paper"}, 0) == 1 ? LocModel::paper : LocModel::full;
   constexpr Landmarks kinds[] = {Landmarks::lines, Landmarks::goalposts, Landmarks::both};
@@ -113,7 +98,7 @@ void read_localization(TomlTable table, RobotFile& file) {
   config.tilt_sigma = table.angle("tilt_sigma_deg", 0.0, 10.0, config.tilt_sigma);
   config.confident = table.real("confident", 0.05, 1.0, config.confident);
   file.robot.seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1000000000, 1));
-  read_prior(table.table("prior"), file.robot.prior);
+  read_prior(table.inner("prior"), file.robot.prior);
   table.finish();
 }
 

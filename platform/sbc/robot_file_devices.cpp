@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of the robot's devices: camera, lens, mount, IMU, gait link, panel.
-#include <algorithm>
 #include <sstream>
 
+#include "platform/host/chain_tables.h"
 #include "platform/host/dataset.h"
 #include "platform/sbc/goal_yaw_file.h"
 #include "platform/sbc/robot_file_tables.h"
@@ -10,7 +10,7 @@
 namespace touchline::sbc {
 namespace {
 
-CameraControl read_control(TomlTable& table, const char* mode_key, const char* value_key, int high) {
+CameraControl read_control(KeyReader& table, const char* mode_key, const char* value_key, int high) {
   using Mode = CameraControl::Mode;
   constexpr Mode modes[] = {Mode::leave, Mode::automatic, Mode::fixed};
   CameraControl control;
@@ -47,8 +47,8 @@ void adopt_dataset(RobotFile& file) {
   file.gait_backend = GaitBackend::replay;
 }
 
-HidField read_hid_field(TomlTable& parent, const char* key, bool present) {
-  TomlTable table = parent.table(key);
+HidField read_hid_field(KeyReader& parent, const char* key, bool present) {
+  KeyReader table = parent.inner(key);
   HidField field;
   field.present = present;
   field.offset = static_cast<std::uint8_t>(table.integer("offset", 0, 63, 0));
@@ -62,7 +62,7 @@ HidField read_hid_field(TomlTable& parent, const char* key, bool present) {
   return field;
 }
 
-void read_custom_layout(TomlTable& table, HidReportLayout& layout) {
+void read_custom_layout(KeyReader& table, HidReportLayout& layout) {
   layout.report_id = static_cast<std::uint8_t>(table.integer("report_id", 0, 255, layout.report_id));
   layout.length = static_cast<std::uint8_t>(table.integer("report_length", 0, 64, layout.length));
   for (const auto& [key, field] : {std::pair{"yaw", &layout.yaw}, std::pair{"roll", &layout.roll},
@@ -90,7 +90,7 @@ void read_custom_layout(TomlTable& table, HidReportLayout& layout) {
 
 }  // namespace
 
-void read_camera(TomlTable table, RobotFile& file, const std::filesystem::path& folder) {
+void read_camera(KeyReader table, RobotFile& file, const std::filesystem::path& folder) {
   V4l2CameraConfig& camera = file.camera;
   file.camera_backend =
       table.choice("backend", {"v4l2", "replay"}, 0) == 1 ? CameraBackend::replay : CameraBackend::v4l2;
@@ -123,7 +123,7 @@ void read_camera(TomlTable table, RobotFile& file, const std::filesystem::path& 
   table.finish();
 }
 
-void read_lens(TomlTable table, RobotFile& file) {
+void read_lens(KeyReader table, RobotFile& file) {
   LensParameters& lens = file.robot.lens;
   const bool replayed = file.camera_backend == CameraBackend::replay;
   if (!replayed) {  // a plain lens of 90 degrees across, until the robot's is known
@@ -134,22 +134,7 @@ void read_lens(TomlTable table, RobotFile& file) {
     lens.model = LensModel::rectilinear;
   }
   const LensParameters plain = lens;
-  const std::vector<std::string> models{"equidistant",    "equisolid", "rectilinear",
-                                        "kannala_brandt", "barrel",    "polynomial"};
-  lens.model = static_cast<LensModel>(table.choice("model", models, static_cast<std::size_t>(lens.model)));
-  lens.focal_px = table.real("focal_px", 1.0, 1e5, lens.focal_px);
-  lens.cx = table.real("cx_px", -1e4, 1e4, lens.cx);
-  lens.cy = table.real("cy_px", -1e4, 1e4, lens.cy);
-  lens.max_theta = table.angle("max_theta_deg", 1.0, 180.0, lens.max_theta);
-  lens.alpha = table.real("alpha", -1.0, 1.0, lens.alpha);
-  const auto copy = [&](const char* key, std::size_t least, auto& to) {
-    const std::vector<double> values = table.numbers(key, least, to.size());
-    if (!values.empty())
-      std::transform(values.begin(), values.end(), to.begin(), [](double v) { return static_cast<float>(v); });
-  };
-  copy("k", 4, lens.k);
-  copy("a", 2, lens.a);
-  copy("b", 2, lens.b);
+  host::read_lens(table, true, lens);
   table.finish();
   if (!replayed && lens.model == plain.model && lens.focal_px == plain.focal_px && lens.cx == plain.cx &&
       lens.cy == plain.cy && lens.max_theta == plain.max_theta) {
@@ -158,15 +143,17 @@ void read_lens(TomlTable table, RobotFile& file) {
   }
 }
 
-void read_mount(TomlTable table, RobotFile& file) {
+void read_mount(KeyReader table, RobotFile& file) {
   CameraMount& mount = file.robot.mount;
   const CameraMount rest{};
-  mount.x = table.real("x_m", -2.0, 2.0, mount.x);
-  mount.y = table.real("y_m", -2.0, 2.0, mount.y);
-  mount.height = table.real("height_m", 0.05, 3.0, mount.height);
-  mount.yaw = table.angle("yaw_deg", -180.0, 180.0, mount.yaw);
-  mount.pitch = table.angle("pitch_deg", -90.0, 90.0, mount.pitch);
-  mount.roll = table.angle("roll_deg", -180.0, 180.0, mount.roll);
+  CameraPose camera{mount.x, mount.y, mount.height, mount.yaw, mount.pitch, mount.roll};
+  host::read_mount(table, true, camera);
+  mount.x = camera.x;
+  mount.y = camera.y;
+  mount.height = camera.height;
+  mount.yaw = camera.yaw;
+  mount.pitch = camera.pitch;
+  mount.roll = camera.roll;
   mount.neck.x = table.real("neck_x_m", -2.0, 2.0, mount.neck.x);
   mount.neck.y = table.real("neck_y_m", -2.0, 2.0, mount.neck.y);
   mount.neck.z = table.real("neck_height_m", 0.0, 3.0, mount.neck.z);
@@ -182,7 +169,7 @@ void read_mount(TomlTable table, RobotFile& file) {
   }
 }
 
-void read_imu(TomlTable table, RobotFile& file) {
+void read_imu(KeyReader table, RobotFile& file) {
   constexpr ImuBackend backends[] = {ImuBackend::none, ImuBackend::hidapi, ImuBackend::replay};
   file.imu_backend =
       backends[table.choice("backend", {"none", "hidapi", "replay"}, static_cast<std::size_t>(file.imu_backend))];
@@ -208,7 +195,7 @@ void read_imu(TomlTable table, RobotFile& file) {
   table.finish();
 }
 
-void read_gait(TomlTable table, RobotFile& file) {
+void read_gait(KeyReader table, RobotFile& file) {
   constexpr GaitBackend backends[] = {GaitBackend::none, GaitBackend::serial, GaitBackend::replay};
   file.gait_backend =
       backends[table.choice("backend", {"none", "serial", "replay"}, static_cast<std::size_t>(file.gait_backend))];
@@ -229,7 +216,7 @@ void read_gait(TomlTable table, RobotFile& file) {
   table.finish();
 }
 
-void read_panel(TomlTable table, RobotFile& file, const std::filesystem::path& folder) {
+void read_panel(KeyReader table, RobotFile& file, const std::filesystem::path& folder) {
   GpioLinesConfig& panel = file.panel;
   file.panel_backend = table.choice("backend", {"none", "gpiod"}, 0) == 1 ? PanelBackend::gpiod : PanelBackend::none;
   panel.chip = table.text("chip", panel.chip);

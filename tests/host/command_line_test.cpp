@@ -222,7 +222,7 @@ TEST_CASE("locate takes mount and yaw from options, else from frames.jsonl, else
   no_height.replace(no_height.find("height_m = 0.58"), 15, "");
   write_tiny(folder, no_height, "{\"image\": \"images/0.png\", \"mount\": {\"height_m\": 0.5}}\n");
   CHECK(locate({listed}).status == 0);
-  check_refused(locate({unlisted}), "mount.height_m: is missing; add it, or give --height-m");
+  check_refused(locate({unlisted}), "[mount] height_m: is missing; add it, or give --height-m");
   CHECK(locate({unlisted, "--height-m", "0.5"}).status == 0);
 }
 
@@ -313,13 +313,13 @@ TEST_CASE("every kind of bad input is one clear line and status 2") {
     return text.replace(text.find(from), from.size(), to);
   };
   write_tiny(folder, changed("0.58", "-0.58"));
-  check_refused(run({"evaluate", path}), "mount.height_m: is -0.58");
+  check_refused(run({"evaluate", path}), "[mount] height_m: is -0.58");
   write_tiny(folder, changed("30.0", "nan"));
-  check_refused(run({"evaluate", path}), "mount.pitch_deg: is NaN");
+  check_refused(run({"evaluate", path}), "[mount] pitch_deg: is NaN");
   write_tiny(folder, changed("equidistant", "fisheye"));
-  check_refused(run({"evaluate", path}), "camera.model: \"fisheye\" is not known; known are equidistant");
+  check_refused(run({"evaluate", path}), "[camera] model: \"fisheye\" is not known; known are equidistant");
   write_tiny(folder, toml, "{\"image\": \"images/0.png\"\n");
-  check_refused(run({"evaluate", path}), "frames.jsonl: line 1: not valid JSON");
+  check_refused(run({"evaluate", path}), "frames.jsonl:1: not valid JSON");
   write_tiny(folder, toml, "{\"image\": \"images/9.png\"}\n");
   const Run missing = run({"evaluate", path, "--json"});
   check_refused(missing, "images/9.png: no such image");

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   toml << "[camera]\ndevice = \""
        << "vivid\"\ninput = 1\nwidth_px = " << options.camera.width << "\nheight_px = " << options.camera.height
        << "\nrate_hz = 0\ndelay_ms = 60\n[field]\npreset = \"acyut-5x3\"\n[lens]\nmodel = \"equisolid\"\nfocal_px = "
-       << lens.focal_px << "\ncx_px = " << lens.cx << "\ncy_px = " << lens.cy
+       << lens.focal_px << "\ncx = " << lens.cx << "\ncy = " << lens.cy
        << "\nmax_theta_deg = " << degrees(lens.max_theta)
        << "\n[mount]\nheight_m = 0.58\npitch_deg = 30\n[imu]\nbackend = \"hidapi\"\ndevice = \"1209:0001\"\n"
        << "[gait]\nbackend = \"serial\"\ndevice = \"/dev/gait-robot\"\n"
