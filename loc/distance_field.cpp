@@ -8,17 +8,30 @@ namespace {
 
 constexpr float far_away = 1.0e9F;  // square metres; more than any distance on a field
 
-bool runs_along_x(const FieldLine& line) { return line.a.y == line.b.y; }
+/// All lines of a field run along x or y, so the nearest point of one is a clamped coordinate. A point by its
+/// coordinates along the line and across it.
+struct AxisPoint {
+  float along, across;
+};
+AxisPoint in_x(const FieldPoint& p) { return {p.x, p.y}; }
+AxisPoint in_y(const FieldPoint& p) { return {p.y, p.x}; }
 
-/// All lines of a field run along x or y, so the nearest point of a segment is a clamped coordinate.
-FieldPoint nearest_on(const FieldLine& line, const FieldPoint& p) {
-  if (runs_along_x(line))
-    return {math::clamp(p.x, math::min(line.a.x, line.b.x), math::max(line.a.x, line.b.x)), line.a.y};
-  return {line.a.x, math::clamp(p.y, math::min(line.a.y, line.b.y), math::max(line.a.y, line.b.y))};
-}
+/// The nearest line so far, and its point.
+struct Nearest {
+  const AxisLine* line = nullptr;
+  float squared = far_away;
+  float along = 0.0F;
+};
 
-float squared_distance(const FieldPoint& a, const FieldPoint& b) {
-  return math::square(a.x - b.x) + math::square(a.y - b.y);
+/// Strictly nearer lines alone replace one.
+void look_for_nearer(std::span<const AxisLine> lines, const AxisPoint& p, Nearest& best) {
+  for (const AxisLine& line : lines) {
+    const float across = math::square(p.across - line.across);
+    if (across >= best.squared) continue;  // whatever is added along the line
+    const float along = math::clamp(p.along, line.low, line.high);
+    const float squared = math::square(p.along - along) + across;
+    if (squared < best.squared) best = {&line, squared, along};
+  }
 }
 
 /// Is the circle's tangent near p within 67.5 degrees of the axis? The radius stands at right angles to it.
@@ -30,10 +43,13 @@ bool circle_counts(const FieldPoint& p, LineAxis axis) {
 }
 
 float exact_distance(const Field& field, const FieldPoint& p, LineAxis axis) {
-  float best = far_away;
-  for (const FieldLine& line : field.lines()) {
-    if (runs_along_x(line) == (axis == LineAxis::x)) best = math::min(best, squared_distance(p, nearest_on(line, p)));
+  Nearest nearest;
+  if (axis == LineAxis::x) {
+    look_for_nearer(field.lines_along_x(), in_x(p), nearest);
+  } else {
+    look_for_nearer(field.lines_along_y(), in_y(p), nearest);
   }
+  float best = nearest.squared;
   const float radius = field.dimensions().circle_radius;
   if (radius > 0.0F && circle_counts(p, axis)) {
     best = math::min(best, math::square(math::hypot(p.x, p.y) - radius));
@@ -47,34 +63,37 @@ std::uint8_t quantised(float distance) {
   return static_cast<std::uint8_t>((static_cast<int>(half_steps) + 1) / 2);
 }
 
-/// Straight lines are compared with `use_x` and `use_y`: whether lines along that axis take part.
-LineMatch nearest_straight(const Field& field, const FieldPoint& p, bool use_x, bool use_y, float& best) {
-  LineMatch match;
-  FieldPoint foot;
-  best = far_away;
-  const auto lines = field.lines();
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!(runs_along_x(lines[i]) ? use_x : use_y)) continue;
-    const FieldPoint candidate = nearest_on(lines[i], p);
-    const float squared = squared_distance(p, candidate);
-    if (squared >= best) continue;
-    best = squared;
-    foot = candidate;
-    match.line = static_cast<int>(i);
-  }
-  if (match.line < 0) return match;
-  // Beside the line the normal is the axis, so that the distance passes smoothly through zero. Beyond its end the
-  // normal points from the end to the point.
-  const bool along_x = runs_along_x(lines[static_cast<std::size_t>(match.line)]);
-  const float beyond = along_x ? p.x - foot.x : p.y - foot.y;
+/// Beside the line the normal is the axis, so that the distance passes smoothly through zero. Beyond its end the normal
+/// points from the end to the point. `along` and `across`: where the match keeps its normal.
+void match_with(const Nearest& nearest, const AxisPoint& p, float& along, float& across, LineMatch& match) {
+  const float beyond = p.along - nearest.along;
   if (beyond == 0.0F) {
-    match.normal_x = along_x ? 0.0F : 1.0F;
-    match.normal_y = along_x ? 1.0F : 0.0F;
-    match.distance = along_x ? p.y - foot.y : p.x - foot.x;
+    along = 0.0F;
+    across = 1.0F;
+    match.distance = p.across - nearest.line->across;
   } else {
-    match.distance = math::sqrt(best);
-    match.normal_x = (p.x - foot.x) / match.distance;
-    match.normal_y = (p.y - foot.y) / match.distance;
+    match.distance = math::sqrt(nearest.squared);
+    along = beyond / match.distance;
+    across = (p.across - nearest.line->across) / match.distance;
+  }
+}
+
+/// Lines along x and along y, where they take part; of two that are equally near the first of the field.
+LineMatch nearest_straight(const Field& field, const FieldPoint& p, bool use_x, bool use_y, float& best) {
+  Nearest x, y;
+  if (use_x) look_for_nearer(field.lines_along_x(), in_x(p), x);
+  if (use_y) look_for_nearer(field.lines_along_y(), in_y(p), y);
+  const bool first_x = y.line == nullptr || (x.line != nullptr && x.line->index < y.line->index);
+  const bool is_x = x.line != nullptr && (first_x ? x.squared <= y.squared : x.squared < y.squared);
+  const Nearest& nearest = is_x ? x : y;
+  best = nearest.squared;
+  LineMatch match;
+  if (nearest.line == nullptr) return match;
+  match.line = nearest.line->index;
+  if (is_x) {
+    match_with(nearest, in_x(p), match.normal_x, match.normal_y, match);
+  } else {
+    match_with(nearest, in_y(p), match.normal_y, match.normal_x, match);
   }
   return match;
 }
@@ -103,6 +122,8 @@ void DistanceField::build(const Field& field) {
   const auto nodes = [](float half) { return static_cast<int>((half + cap) / cell) + 2; };
   columns_ = nodes(0.5F * field.dimensions().length);
   rows_ = nodes(0.5F * field.dimensions().width);
+  last_column_ = static_cast<float>(columns_ - 1);
+  last_row_ = static_cast<float>(rows_ - 1);
   for (int y = 0; y < rows_; ++y) {
     for (int x = 0; x < columns_; ++x) {
       const FieldPoint p{static_cast<float>(x) * cell, static_cast<float>(y) * cell};

@@ -51,6 +51,8 @@ class DistanceField {
 
   int columns_ = 0;  // in use; 0 before build(): then every distance is `cap`
   int rows_ = 0;
+  float last_column_ = -1.0F;
+  float last_row_ = -1.0F;
   std::array<Layer, 2> layers_{};
 };
 
@@ -58,7 +60,7 @@ inline float DistanceField::distance_inline(const FieldPoint& p, LineAxis axis) 
   constexpr float per_metre = 1.0F / cell;
   const float u = math::abs(p.x) * per_metre;
   const float v = math::abs(p.y) * per_metre;
-  if (!(u < static_cast<float>(columns_ - 1) && v < static_cast<float>(rows_ - 1))) return cap;
+  if (!(u < last_column_ && v < last_row_)) return cap;
   const int column = static_cast<int>(u);
   const int row = static_cast<int>(v);
   const float right = u - static_cast<float>(column);

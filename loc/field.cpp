@@ -81,9 +81,27 @@ Status Field::create(const FieldDimensions& dimensions, Field& out, const char**
   Field field;
   field.dimensions_ = dimensions;
   field.add_lines();
+  field.sort_by_axis();
   field.add_landmarks();
   out = field;
   return Status::ok;
+}
+
+void Field::sort_by_axis() {
+  std::size_t sorted = 0;
+  for (const bool wanted : {true, false}) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const FieldLine& line = lines_[i];
+      const bool is_x = line.a.y == line.b.y;
+      if (is_x != wanted) continue;
+      AxisLine& to = by_axis_[sorted++];
+      to.low = is_x ? math::min(line.a.x, line.b.x) : math::min(line.a.y, line.b.y);
+      to.high = is_x ? math::max(line.a.x, line.b.x) : math::max(line.a.y, line.b.y);
+      to.across = is_x ? line.a.y : line.a.x;
+      to.index = static_cast<int>(i);
+    }
+    if (wanted) along_x_ = sorted;
+  }
 }
 
 void Field::add_lines() {

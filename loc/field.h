@@ -2,6 +2,7 @@
 // The field's dimensions, its lines, and the landmarks that follow from them. All in metres, between centres of lines.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -38,6 +39,11 @@ void tell_vision(const FieldDimensions& field, VisionConfig& vision);
 struct FieldLine {
   FieldPoint a, b;
 };
+/// The same line by its axis: from low to high along it, at `across` on the other one.
+struct AxisLine {
+  float low = 0.0F, high = 0.0F, across = 0.0F;
+  int index = 0;  // in Field::lines()
+};
 struct FieldLandmark {
   JunctionType type = JunctionType::l;
   FieldPoint at;
@@ -61,12 +67,19 @@ class Field {
 
   [[nodiscard]] const FieldDimensions& dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const FieldLine> lines() const& { return lines_.span(); }
+  /// Those along x, those along y, each in the order of lines().
+  [[nodiscard]] std::span<const AxisLine> lines_along_x() const& { return {by_axis_.data(), along_x_}; }
+  [[nodiscard]] std::span<const AxisLine> lines_along_y() const& {
+    return {by_axis_.data() + along_x_, lines_.size() - along_x_};
+  }
   [[nodiscard]] std::span<const FieldLandmark> landmarks() const& { return landmarks_.span(); }
   [[nodiscard]] std::span<const FieldPoint> posts() const& { return posts_.span(); }  // own two, then opponent's two
   /// None, or own and opponent's.
   [[nodiscard]] std::span<const FieldPoint> penalty_marks() const& { return penalty_marks_.span(); }
   // The spans refer into the field: a temporary would leave them dangling.
   std::span<const FieldLine> lines() const&& = delete;
+  std::span<const AxisLine> lines_along_x() const&& = delete;
+  std::span<const AxisLine> lines_along_y() const&& = delete;
   std::span<const FieldLandmark> landmarks() const&& = delete;
   std::span<const FieldPoint> posts() const&& = delete;
   std::span<const FieldPoint> penalty_marks() const&& = delete;
@@ -77,11 +90,14 @@ class Field {
  private:
   FieldDimensions dimensions_{};
   StaticVector<FieldLine, max_field_lines> lines_;
+  std::array<AxisLine, max_field_lines> by_axis_{};  // along x, then along y
+  std::size_t along_x_ = 0;                          // how many of them run along x
   StaticVector<FieldLandmark, max_field_landmarks> landmarks_;
   StaticVector<FieldPoint, 4> posts_;
   StaticVector<FieldPoint, 2> penalty_marks_;
 
   void add_lines();
+  void sort_by_axis();
   void add_landmarks();
   void add_pair(JunctionType type, const FieldPoint& at, std::initializer_list<float> directions);
   void add_area(float depth, float width);
