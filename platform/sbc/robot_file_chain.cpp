@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/host/chain_tables.h"
+#include "platform/processor/fastest_kernels.h"
 #include "platform/sbc/robot_file_tables.h"
 
 namespace touchline::sbc {
@@ -68,6 +69,7 @@ void read_field(KeyReader& top, RobotFile& file) {
 
 void read_vision(KeyReader table, RobotFile& file) {
   VisionConfig& vision = file.robot.vision;
+  vision.kernels = fastest_kernels();
   vision.fifo_depth = table.integer("fifo_depth", 1, 4, vision.fifo_depth);  // the daemon's storage holds four
   vision.green = read_range(table, "green_hsv", vision.green);
   vision.yellow_post = read_range(table, "yellow_post_hsv", vision.yellow_post);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "platform/host/host_error.h"
+#include "platform/processor/fastest_kernels.h"
 #include "tests/host/temp_folder.h"
 
 namespace touchline::sbc {
@@ -51,6 +52,7 @@ TEST_CASE("the example is good, names every key, and holds the defaults") {
   const RobotFile empty = read_robot_file(temp.write("robot.toml", ""));
   CHECK(example.camera.width == empty.camera.width);
   CHECK(example.camera.rate_hz == empty.camera.rate_hz);
+  CHECK(example.robot.vision.kernels.name == fastest_kernels().name);
   CHECK(example.robot.lens.focal_px == empty.robot.lens.focal_px);
   CHECK(example.robot.lens.cx == empty.robot.lens.cx);
   CHECK(example.robot.lens.max_theta == empty.robot.lens.max_theta);
