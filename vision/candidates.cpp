@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/morphology.h"
 #include "vision/line_extent.h"
 
 namespace touchline {
@@ -125,6 +126,24 @@ CannyThresholds edge_thresholds(const CarpetModel& carpet) {
   // Binomial and Sobel give noise of sigma a gradient of 1.65 sigma; carpet.noise is in 1/16: 4 * 1.65 / 16 = 0.41.
   const int low = std::clamp<std::int32_t>(carpet.noise * 41 / 100, 12, 600);
   return {low, 2 * low};
+}
+
+void find_edge_zone(ConstBitView white, ConstBitView green, BitView zone) {
+  const int words = words_for(zone.width);
+  for (int y = 0; y < zone.height; ++y) {
+    for (int i = 0; i < words; ++i) {
+      BitWord bits = 0;
+      const Near w = near_bits(white, y, i);
+      if ((w.left | w.right | w.above | w.below) != 0) {
+        const Near g = near_bits(green, y, i);
+        bits = (w.left & g.right) | (w.right & g.left) | (w.above & g.below) | (w.below & g.above);
+      }
+      zone.row(y)[i] = bits;
+    }
+    zone.row(y)[words - 1] &= last_word_mask(zone.width);
+  }
+  constexpr int follow_px = 9;  // a weak edge may leave the border of white by some pixels and come back
+  dilate(zone, follow_px);
 }
 
 int add_line_edges(const EdgeInput& input, BitView lines, std::array<int, candidate_rejections>& rejected) {

@@ -29,6 +29,10 @@ enum class CandidateRejection : std::uint8_t {
 const char* to_string(CandidateRejection reason);
 inline constexpr std::size_t candidate_rejections = static_cast<std::size_t>(CandidateRejection::count);
 
+/// Pixels where an edge can be a line's: white on one side and green on the other, along the row or the column, each
+/// within three pixels; and four pixels around them, so that weak edges still lead to strong ones. `zone` is set.
+void find_edge_zone(ConstBitView white, ConstBitView green, BitView zone);
+
 /// Thresholds that noise of the measured strength passes rarely: 4 and 8 times its gradient.
 CannyThresholds edge_thresholds(const CarpetModel& carpet);
 

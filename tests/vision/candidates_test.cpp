@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <memory>
+#include <utility>
 
 #include "tests/vision/drawn_carpet.h"
 
@@ -83,4 +84,27 @@ TEST_CASE("each reason has a name") {
   for (std::size_t i = 0; i < candidate_rejections; ++i) {
     CHECK(std::string(to_string(static_cast<CandidateRejection>(i))) != "unknown reason");
   }
+}
+
+TEST_CASE("edges are looked for where white and green face each other, and four pixels around, and nowhere else") {
+  const int w = 150, h = 40;
+  const Bits white = random_bits(w, h, 3, 1), green = random_bits(w, h, 6, 2);
+  Bits zone(w, h), expected(w, h);
+  find_edge_zone(white.view(), green.view(), zone.view());
+  for (int y = 0; y < h; ++y) {
+    for (int x = 0; x < w; ++x) {
+      bool faced = false;
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        bool white_ahead = false, green_behind = false;
+        for (int k = 1; k <= 3; ++k) {
+          white_ahead = white_ahead || white.view().get(x + k * dx, y + k * dy);
+          green_behind = green_behind || green.view().get(x - k * dx, y - k * dy);
+        }
+        faced = faced || (white_ahead && green_behind);
+      }
+      for (int v = y - 4; faced && v <= y + 4; ++v) set_span(expected.view(), v, x - 4, x + 4, true);
+    }
+  }
+  CHECK(zone == expected);
+  CHECK(padding_is_clear(zone.view()));
 }
