@@ -25,24 +25,35 @@ void steepness_of_row(const RayGridView& grid, int row, const Vec3& up, CornerRo
   }
 }
 
-/// The eight pixels of row `y` inside the cell right of corner `i`.
-BitWord cell_bits(const CornerRow& above, const CornerRow& below, std::size_t i, int y, std::int32_t limit) {
+/// The cell right of corner `i`, a byte for each of its rows.
+using CellRows = std::array<std::uint8_t, ray_cell_px>;
+static_assert(ray_cell_px == 8);
+
+CellRows cell_rows(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit) {
+  CellRows rows{};
   const std::int32_t corner[4] = {above[i], above[i + 1], below[i], below[i + 1]};
   int steep = 0;
   for (const std::int32_t c : corner) {
-    if (c == no_ray) return 0;  // well outside the image circle
+    if (c == no_ray) return rows;  // well outside the image circle
     steep += c > limit ? 1 : 0;
   }
-  if (steep == 0 || steep == 4) return steep == 0 ? 0 : 0xFF;
-  const std::int32_t down = 2 * (y % ray_cell_px) + 1;  // in half pixels, of 16
-  const std::int32_t left = corner[0] * (16 - down) + corner[2] * down;
-  const std::int32_t right = corner[1] * (16 - down) + corner[3] * down;
-  BitWord bits = 0;
-  for (int k = 0; k < ray_cell_px; ++k) {
-    const std::int32_t across = 2 * k + 1;
-    if (left * (16 - across) + right * across > limit * 256) bits |= BitWord{1} << k;
+  if (steep == 0) return rows;
+  if (steep == 4) {
+    rows.fill(0xFF);
+    return rows;
   }
-  return bits;
+  for (int y = 0; y < ray_cell_px; ++y) {
+    const std::int32_t down = 2 * y + 1;  // in half pixels, of 16
+    const std::int32_t left = corner[0] * (16 - down) + corner[2] * down;
+    const std::int32_t right = corner[1] * (16 - down) + corner[3] * down;
+    unsigned bits = 0;
+    for (int k = 0; k < ray_cell_px; ++k) {
+      const std::int32_t across = 2 * k + 1;
+      if (left * (16 - across) + right * across > limit * 256) bits |= 1U << k;
+    }
+    rows[static_cast<std::size_t>(y)] = static_cast<std::uint8_t>(bits);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -56,15 +67,15 @@ void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max
   CornerRow below{};
   steepness_of_row(grid, 0, up, below);
   clear(ground);
-  for (int y = 0; y < ground.height; ++y) {
-    if (y % ray_cell_px == 0) {
-      above = below;
-      steepness_of_row(grid, y / ray_cell_px + 1, up, below);
-    }
-    BitWord* row = ground.row(y);
+  for (int y0 = 0; y0 < ground.height; y0 += ray_cell_px) {
+    above = below;
+    steepness_of_row(grid, y0 / ray_cell_px + 1, up, below);
+    const int rows = std::min(ray_cell_px, ground.height - y0);
     for (int i = 0; i + 1 < grid.columns; ++i) {
-      const int x = i * ray_cell_px;
-      row[x / bits_per_word] |= cell_bits(above, below, static_cast<std::size_t>(i), y, limit) << (x % bits_per_word);
+      const CellRows cell = cell_rows(above, below, static_cast<std::size_t>(i), limit);
+      for (int y = 0; y < rows; ++y) {
+        reinterpret_cast<unsigned char*>(ground.row(y0 + y))[i] = cell[static_cast<std::size_t>(y)];
+      }
     }
   }
   and_with(ground, seen);

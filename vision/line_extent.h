@@ -27,10 +27,13 @@ constexpr bool wider_than_slope_allows(int length, int rise, int run, std::uint1
   const std::int64_t a = std::int64_t{across} * across;
   const std::int64_t b = std::int64_t{other_across} * other_across;
   const std::int64_t mixed = std::max<std::int64_t>(std::int64_t{slanted} * slanted - a - b, 0);
+  const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
+  // Most are decided without the slope, which takes divisions: the extent grows with it.
+  if (least * least <= 25 * a) return false;
+  if (least * least > 25 * (a + mixed + b)) return true;
   const std::int64_t n = rise;
   const std::int64_t d = std::max(run, 1);
-  const std::int64_t extent2 = a + mixed * n / d + b * n * n / (d * d);        // 2^-8 square pixels
-  const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
+  const std::int64_t extent2 = a + mixed * n / d + b * n * n / (d * d);  // 2^-8 square pixels
   return least * least > 25 * extent2;
 }
 

@@ -2,10 +2,10 @@
 #include "vision/line_mask.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/word_lanes.h"
 
 namespace touchline {
 namespace {
@@ -25,39 +25,29 @@ void border_of(ConstBitView mask, BitView border) {
   }
 }
 
-/// Whether a luma is below the middle between the darkest and the brightest within two pixels, where sixteen bytes from
-/// two pixels to the left on lie inside the row.
+/// Whether a luma is below the middle between the darkest and the brightest within two pixels, where these lie inside.
 bool inner_below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
-  using U8x16 = std::uint8_t __attribute__((vector_size(16)));
   const auto load = [](const std::uint8_t* from) {
-    U8x16 v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
+    std::uint32_t word = 0;
+    std::memcpy(&word, from, sizeof word);
+    return word;
   };
-  const std::uint8_t* corner = luma.row(y - 2) + x - 2;
-  U8x16 least = load(corner);
-  U8x16 most = least;
-  for (int k = 1; k < 5; ++k) {
-    const U8x16 row = load(corner + k * luma.stride);
-    least = row < least ? row : least;
-    most = row > most ? row : most;
+  // Five pixels of a row as two words of four.
+  const std::uint8_t* left = luma.row(y - 2) + x - 2;
+  std::uint32_t least = load(left);
+  std::uint32_t most = least;
+  for (int k = 0; k < 5; ++k, left += luma.stride) {
+    const std::uint32_t first = load(left);
+    const std::uint32_t last = load(left + 1);
+    least = smaller_bytes(smaller_bytes(least, first), last);
+    most = larger_bytes(larger_bytes(most, first), last);
   }
-  std::uint64_t least_bytes = 0;
-  std::uint64_t most_bytes = 0;
-  std::memcpy(&least_bytes, &least, sizeof least_bytes);
-  std::memcpy(&most_bytes, &most, sizeof most_bytes);
-  int darkest = 255;
-  int brightest = 0;
-  for (int k = 0; k < 5; ++k) {
-    darkest = std::min(darkest, static_cast<int>((least_bytes >> (8 * k)) & 0xFFU));
-    brightest = std::max(brightest, static_cast<int>((most_bytes >> (8 * k)) & 0xFFU));
-  }
-  return 2 * luma.at(x, y) < darkest + brightest;
+  return 2 * luma.at(x, y) < smallest_byte(least) + largest_byte(most);
 }
 
 /// The same anywhere.
 bool below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
-  if (x >= 2 && y >= 2 && x + 14 <= luma.width && y + 2 < luma.height) return inner_below_half_level(luma, x, y);
+  if (x >= 2 && y >= 2 && x + 2 < luma.width && y + 2 < luma.height) return inner_below_half_level(luma, x, y);
   const int x0 = std::max(x - 2, 0);
   const int x1 = std::min(x + 2, luma.width - 1);
   const int y1 = std::min(y + 2, luma.height - 1);
@@ -73,12 +63,11 @@ bool below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
   return 2 * luma.at(x, y) < darkest + brightest;
 }
 
-/// Rows of a block row whose widest line still lets `lines` grow at this step.
-bool grows(LineWidthView widths, int block_y, int step) {
-  for (int i = 0; i < widths.width; ++i) {
-    if (widths.at(i, block_y).slanted >= step * 32) return true;
-  }
-  return false;
+/// The widest line of a row of blocks.
+int widest(LineWidthView widths, int block_y) {
+  std::uint16_t most = 0;
+  for (int i = 0; i < widths.width; ++i) most = std::max(most, widths.at(i, block_y).slanted);
+  return most;
 }
 
 }  // namespace
@@ -98,9 +87,11 @@ void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, Bi
   for (int step = 1; step <= max_steps; ++step) {
     BitWord added = 0;
     bool any = false;
+    bool grows = false;  // the rows of this row of blocks
     copy(lines, scratch);
     for (int y = 0; y < lines.height; ++y) {
-      if (!grows(widths, std::min(y / width_block_px, widths.height - 1), step)) continue;
+      if (y % width_block_px == 0) grows = widest(widths, std::min(y / width_block_px, widths.height - 1)) >= step * 32;
+      if (!grows) continue;
       any = true;
       for (int i = 0; i < words; ++i) {
         const BitWord open = white.row(y)[i] & ~lines.row(y)[i];

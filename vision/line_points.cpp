@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 #include "platform/core/elementary.h"
 #include "vision/graph.h"
@@ -26,30 +27,39 @@ struct Moments {
 };
 /// Bits first .. first + n - 1 of a row, n <= 32; bits outside the image are zero.
 std::uint32_t bits_of_row(ConstBitView mask, int y, int first, int n) {
-  const BitWord* row = mask.row(y);
+  constexpr int half = 32;  // of a word: what a register of a small processor takes
+  const auto* bytes = reinterpret_cast<const unsigned char*>(mask.row(y));
   const int from = std::max(first, 0);
-  const int word = from / bits_per_word;
-  const int shift = from % bits_per_word;
-  if (word >= words_for(mask.width)) return 0;
-  BitWord bits = row[word] >> shift;
-  if (shift != 0 && word + 1 < words_for(mask.width)) bits |= row[word + 1] << (bits_per_word - shift);
+  if (from >= mask.width) return 0;
+  const auto half_at = [bytes](int index) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes + 4 * index, sizeof bits);
+    return bits;
+  };
+  const int index = from / half;
+  const int shift = from % half;
+  std::uint32_t bits = half_at(index) >> shift;
+  if (shift != 0 && half * (index + 1) < mask.width) bits |= half_at(index + 1) << (half - shift);
   bits <<= from - first;
-  return static_cast<std::uint32_t>(bits & ((BitWord{1} << n) - 1));
+  return bits & (~std::uint32_t{0} >> (half - n));
 }
 
 Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
   Moments m;
   for (int dy = std::max(-radius, -at.y); dy <= std::min(radius, skeleton.height - 1 - at.y); ++dy) {
+    std::int32_t n = 0, x = 0;
     for (std::uint32_t left = bits_of_row(skeleton, at.y + dy, at.x - radius, 2 * radius + 1); left != 0;
          left &= left - 1) {
       const int dx = std::countr_zero(left) - radius;
-      ++m.n;
-      m.x += dx;
-      m.y += dy;
+      ++n;
+      x += dx;
       m.xx += dx * dx;
-      m.xy += dx * dy;
-      m.yy += dy * dy;
     }
+    m.n += n;
+    m.x += x;
+    m.y += n * dy;
+    m.xy += x * dy;
+    m.yy += n * dy * dy;
   }
   return m;
 }

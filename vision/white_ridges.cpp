@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 
 #include "vision/image/bit_ops.h"
 #include "vision/white_search.h"
@@ -34,27 +35,33 @@ Reaches reaches_for(std::uint16_t across, std::uint16_t slanted) {
   return reaches;
 }
 
-/// Eight bits of a mask's row from x on, wherever that is; zero beyond the image.
-unsigned eight_bits(ConstBitView mask, int x, int y) {
-  if (y < 0 || y >= mask.height || x <= -8 || x >= mask.width) return 0;
-  const BitWord* row = mask.row(y);
-  if (x < 0) return static_cast<unsigned>(row[0] << -x) & 0xFFU;
-  const int word = x / bits_per_word;
-  const int shift = x % bits_per_word;
-  BitWord bits = row[word] >> shift;
-  if (shift > bits_per_word - 8 && word + 1 < words_for(mask.width)) bits |= row[word + 1] << (bits_per_word - shift);
-  return static_cast<unsigned>(bits) & 0xFFU;
-}
-/// Eight rows of them: bit 8 y + x.
+/// Eight rows of eight bits of a mask from (x, y) on, wherever that is: bit 8 y + x; zero beyond the image.
 BitWord block_bits(ConstBitView mask, int x, int y) {
-  BitWord bits = 0;
-  for (int r = 0; r < ridge_block_px; ++r) bits |= BitWord{eight_bits(mask, x, y + r)} << (8 * r);
-  return bits;
+  if (x <= -8 || x >= mask.width) return 0;
+  const int byte = x < 0 ? -1 : x / 8;
+  const int shift = x - 8 * byte;
+  const bool has_left = byte >= 0;
+  const bool has_right = shift != 0 && 8 * (byte + 1) < mask.width;
+  std::uint8_t rows[ridge_block_px] = {};
+  const int first = std::max(-y, 0);
+  const int end = std::min(mask.height - y, ridge_block_px);
+  for (int r = first; r < end; ++r) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(mask.row(y + r)) + byte;
+    unsigned bits = has_left ? bytes[0] : 0U;
+    if (has_right) bits |= static_cast<unsigned>(bytes[1]) << 8U;
+    rows[r] = static_cast<std::uint8_t>(bits >> shift);
+  }
+  BitWord all = 0;
+  std::memcpy(&all, rows, sizeof all);
+  return all;
 }
 /// x and y are multiples of eight.
 void add_block(BitView mask, int x, int y, BitWord bits) {
+  std::uint8_t rows[ridge_block_px];
+  std::memcpy(rows, &bits, sizeof rows);
   for (int r = 0; r < ridge_block_px && y + r < mask.height; ++r) {
-    mask.row(y + r)[x / bits_per_word] |= ((bits >> (8 * r)) & 0xFFU) << (x % bits_per_word);
+    unsigned char& eight = reinterpret_cast<unsigned char*>(mask.row(y + r))[x / 8];
+    eight = static_cast<unsigned char>(eight | rows[r]);
   }
 }
 /// Pixels first <= x < end of the eight from x0 on.
@@ -66,6 +73,10 @@ unsigned lanes(int x0, int first, int end) {
 /// Pixels of a block at (x0, y0) with `inside_x` pixels to the left and the right of them, and `inside_y` above and
 /// below.
 BitWord inner_block(ConstBitView mask, int x0, int y0, int inside_x, int inside_y) {
+  if (x0 >= inside_x && x0 + ridge_block_px + inside_x <= mask.width && y0 >= inside_y &&
+      y0 + ridge_block_px + inside_y <= mask.height) {
+    return ~BitWord{0};
+  }
   const BitWord columns = BitWord{lanes(x0, inside_x, mask.width - inside_x)} * 0x0101010101010101U;
   const unsigned rows = lanes(y0, inside_y, mask.height - inside_y);
   BitWord bits = 0;
@@ -75,6 +86,7 @@ BitWord inner_block(ConstBitView mask, int x0, int y0, int inside_x, int inside_
 
 class RidgeSearch {
  public:
+  /// Both planes of chroma have one stride.
   RidgeSearch(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, const CarpetModel& carpet,
               BitView strong, BitView weak, const Kernels& kernels)
       : image_(image), roi_(roi), green_(green), carpet_(carpet), strong_(strong), weak_(weak), kernels_(kernels) {
@@ -147,8 +159,10 @@ class RidgeSearch {
     std::int32_t luma, greenness, chroma;
   };
   [[nodiscard]] Colour colour(int x, int y) const {
-    const std::int32_t cb = image_.cb.at(x / 2, y / 2) - 128;
-    const std::int32_t cr = image_.cr.at(x / 2, y / 2) - 128;
+    const int chroma = static_cast<int>(static_cast<unsigned>(y) / 2U) * image_.cb.stride +
+                       static_cast<int>(static_cast<unsigned>(x) / 2U);
+    const std::int32_t cb = image_.cb.data[chroma] - 128;
+    const std::int32_t cr = image_.cr.data[chroma] - 128;
     return {image_.y.at(x, y), cb * carpet_.axis_cb + cr * carpet_.axis_cr, magnitude(cb) + magnitude(cr)};
   }
   /// Chroma over luma, compared without a division: at least an eighth less green than the side, and not more of any
@@ -158,10 +172,10 @@ class RidgeSearch {
            here.chroma * side.luma < side.chroma * here.luma;
   }
 
-  const ConstYuv420View& image_;
+  ConstYuv420View image_;
   ConstBitView roi_;
   ConstBitView green_;
-  const CarpetModel& carpet_;
+  CarpetModel carpet_;
   BitView strong_;
   BitView weak_;
   const Kernels& kernels_;

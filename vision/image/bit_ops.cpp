@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "vision/image/vector_registers.h"
+
 namespace touchline {
 namespace {
 
@@ -12,6 +14,10 @@ template <typename Combine>
 void combine(BitView target, ConstBitView other, Combine word) {
   assert(target.width == other.width && target.height == other.height);
   const int words = words_for(target.width);
+  if (target.stride == words && other.stride == words) {  // all rows in one piece
+    for (int i = 0; i < words * target.height; ++i) target.words[i] = word(target.words[i], other.words[i]);
+    return;
+  }
   for (int y = 0; y < target.height; ++y) {
     BitWord* to = target.row(y);
     const BitWord* from = other.row(y);
@@ -50,6 +56,10 @@ int first_pixel_right_of(SubpixelPoint a, SubpixelPoint b, std::int64_t y) {
 }  // namespace
 
 void clear(BitView mask) {
+  if (mask.stride == words_for(mask.width) && mask.height > 0) {  // all rows in one piece
+    std::fill_n(mask.words, mask.stride * mask.height, BitWord{0});
+    return;
+  }
   change_all(mask, [](BitWord) { return BitWord{0}; });
 }
 void fill(BitView mask) {
@@ -76,7 +86,12 @@ int count(ConstBitView mask) {
   int sum = 0;
   for (int y = 0; y < mask.height; ++y) {
     const BitWord* row = mask.row(y);
-    for (int i = 0; i < words; ++i) sum += bits_set(row[i]);
+    for (int i = 0; i < words; ++i) {
+      if constexpr (!vector_registers) {
+        if (row[i] == 0) continue;
+      }
+      sum += bits_set(row[i]);
+    }
   }
   return sum;
 }

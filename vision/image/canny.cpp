@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/bit_pack.h"
+#include "vision/image/canny_words.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 namespace {
@@ -14,7 +17,7 @@ namespace {
 /// The blur is not divided by its 16, so that nothing is rounded: magnitudes are 16 times those of the thresholds.
 constexpr int blur_scale = 16;
 
-/// Columns that have to be looked at: all that the region reaches.
+/// Columns that have to be looked at.
 struct Columns {
   int first = 0;
   int end = 0;
@@ -50,49 +53,148 @@ void repeat_ends(T* row, int width) {
   row[width] = row[width - 1];
 }
 
-/// out = 3x3 binomial around row y, times 16.
-void blur_row(const ImageView<const std::uint8_t>& gray, int y, Columns columns, std::uint16_t* vertical,
-              std::uint16_t* out) {
-  const std::uint8_t* above = gray.row(std::max(y - 1, 0));
-  const std::uint8_t* here = gray.row(y);
-  const std::uint8_t* below = gray.row(std::min(y + 1, gray.height - 1));
-  const int first = std::max(columns.first - 1, 0);
-  const int end = std::min(columns.end + 1, gray.width);
-  for (int x = first; x < end; ++x) vertical[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-  repeat_ends(vertical, gray.width);
-  for (int x = columns.first; x < columns.end; ++x) {
-    out[x] = static_cast<std::uint16_t>(vertical[x - 1] + 2 * vertical[x] + vertical[x + 1]);
+/// The loops over a row, for processors with vector registers; canny_words.h has those for others.
+struct ByVectors {
+  static constexpr int slope_bias = 0;
+
+  static void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int first,
+                       int end, std::uint16_t* out) {
+    for (int x = first; x < end; ++x) out[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
+  }
+  static void sum_columns(const std::uint16_t* in, int first, int end, std::uint16_t* out) {
+    for (int x = first; x < end; ++x) out[x] = static_cast<std::uint16_t>(in[x - 1] + 2 * in[x] + in[x + 1]);
+  }
+  static void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below, int first,
+                           int end, std::uint16_t* sums, std::int16_t* steps) {
+    for (int x = first; x < end; ++x) {
+      sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
+      steps[x] = static_cast<std::int16_t>(below[x] - above[x]);
+    }
+  }
+  /// Gradients and magnitudes of up to 64 columns from x0 on; a bit where the magnitude is at least `threshold`.
+  static BitWord slopes(const canny_words::Slopes& s, int x0, int end, int threshold) {
+    for (int x = x0; x < end; ++x) {
+      const auto dx = static_cast<std::int16_t>(s.sums[x + 1] - s.sums[x - 1]);
+      const auto dy = static_cast<std::int16_t>(s.steps[x - 1] + 2 * s.steps[x] + s.steps[x + 1]);
+      const auto ax = static_cast<std::int16_t>(dx < 0 ? -dx : dx);
+      const auto ay = static_cast<std::int16_t>(dy < 0 ? -dy : dy);
+      const std::int16_t most = std::max(ax, ay);
+      const std::int16_t least = std::min(ax, ay);
+      s.gx[x] = dx;
+      s.gy[x] = dy;
+      s.magnitude[x] = static_cast<std::uint16_t>(most + (least * 3) / 8);
+    }
+    std::array<std::uint8_t, bits_per_word> flags{};
+    for (int i = 0; i < end - x0; ++i) flags[static_cast<std::size_t>(i)] = s.magnitude[x0 + i] >= threshold ? 1 : 0;
+    return pack_flags(flags.data());
+  }
+};
+
+struct ByWords {
+  static constexpr int slope_bias = canny_words::slope_bias;
+  static constexpr auto sum_rows = canny_words::sum_rows;
+  static constexpr auto sum_columns = canny_words::sum_columns;
+  static constexpr auto sum_and_step = canny_words::sum_and_step;
+  static BitWord slopes(const canny_words::Slopes& s, int x0, int end, int threshold) {
+    BitWord bits = 0;
+    int x = x0;
+    for (; x + canny_words::block_px <= end; x += canny_words::block_px) {
+      bits |= BitWord{canny_words::slopes_of_block(s, x, threshold)} << (x - x0);
+    }
+    for (; x < end; ++x) bits |= (canny_words::slope_at(s, x, threshold) ? BitWord{1} : BitWord{0}) << (x - x0);
+    return bits;
+  }
+};
+
+constexpr int block_px = 32;
+/// Blocks of a row, a bit each: widths up to 2048.
+using Blocks = std::uint64_t;
+
+/// Blocks of a row that the region reaches.
+Blocks blocks_of(ConstBitView roi, int y) {
+  Blocks blocks = 0;
+  if (y < 0 || y >= roi.height) return blocks;
+  for (int i = 0; i < words_for(roi.width); ++i) {
+    const BitWord word = roi.row(y)[i];
+    if (word == 0) continue;
+    if ((word & 0xFFFFFFFFU) != 0) blocks |= Blocks{1} << (2 * i);
+    if (word >> block_px != 0) blocks |= Blocks{2} << (2 * i);
+  }
+  return blocks;
+}
+
+/// Calls visit(columns) for each run of blocks, with two columns more on either side.
+template <typename Visit>
+void for_each_run(Blocks blocks, int width, Visit visit) {
+  while (blocks != 0) {
+    const int first = std::countr_zero(blocks);
+    const int end = first + std::countr_one(blocks >> first);
+    visit(Columns{std::max(first * block_px - 2, 0), std::min(end * block_px + 2, width)});
+    blocks &= end >= 64 ? Blocks{0} : ~Blocks{0} << end;
   }
 }
 
-/// Sobel of row y and its magnitude.
-void gradient_row(const RollingRows& rows, int y, int width, int height, Columns columns) {
-  const std::uint16_t* above = rows.blurred(std::max(y - 1, 0));
-  const std::uint16_t* here = rows.blurred(y);
-  const std::uint16_t* below = rows.blurred(std::min(y + 1, height - 1));
-  std::uint16_t* sums = rows.column_sums();
-  std::int16_t* steps = rows.column_steps();
-  const int first = std::max(columns.first - 1, 0);
-  const int end = std::min(columns.end + 1, width);
-  for (int x = first; x < end; ++x) {
-    sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-    steps[x] = static_cast<std::int16_t>(below[x] - above[x]);
+/// The blocks of five rows: what the gradients and maxima of rows y - 1 to y + 1 look at around row y.
+class NearBlocks {
+ public:
+  explicit NearBlocks(ConstBitView roi, int first) : roi_(roi), next_(first) {}
+  /// Rows in order, each at most once again.
+  Blocks at(int y) {
+    for (; next_ <= y + 2; ++next_) ring(next_) = blocks_of(roi_, next_);
+    Blocks near = 0;
+    for (int v = y - 2; v <= y + 2; ++v) near |= ring(v);
+    return near;
   }
-  repeat_ends(sums, width);
-  repeat_ends(steps, width);
-  std::int16_t* gx = rows.gx(y);
-  std::int16_t* gy = rows.gy(y);
-  std::uint16_t* magnitude = rows.magnitude(y);
-  for (int x = columns.first; x < columns.end; ++x) {
-    const auto dx = static_cast<std::int16_t>(sums[x + 1] - sums[x - 1]);
-    const auto dy = static_cast<std::int16_t>(steps[x - 1] + 2 * steps[x] + steps[x + 1]);
-    const auto ax = static_cast<std::int16_t>(dx < 0 ? -dx : dx);
-    const auto ay = static_cast<std::int16_t>(dy < 0 ? -dy : dy);
-    const std::int16_t most = std::max(ax, ay);
-    const std::int16_t least = std::min(ax, ay);
-    gx[x] = dx;
-    gy[x] = dy;
-    magnitude[x] = static_cast<std::uint16_t>(most + (least * 3) / 8);
+
+ private:
+  std::uint64_t& ring(int y) { return ring_[static_cast<std::size_t>(y & 7)]; }
+  ConstBitView roi_;
+  int next_;
+  std::array<Blocks, 8> ring_{};
+};
+
+/// out = 3x3 binomial around row y, times 16.
+template <typename Loops>
+void blur_row(const ImageView<const std::uint8_t>& gray, int y, Blocks blocks, std::uint16_t* vertical,
+              std::uint16_t* out) {
+  for_each_run(blocks, gray.width, [&](Columns columns) {
+    Loops::sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
+                    std::max(columns.first - 1, 0), std::min(columns.end + 1, gray.width), vertical);
+    repeat_ends(vertical, gray.width);
+    Loops::sum_columns(vertical, columns.first, columns.end, out);
+  });
+}
+
+/// The words of a row in whose reach, one pixel to every side, the region has a pixel.
+BitWord near_region(ConstBitView roi, int y, int i) {
+  BitWord near = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, roi.height - 1); ++v) {
+    const BitWord* row = roi.row(v);
+    near |= row[i];
+    if (i > 0) near |= row[i - 1] >> (bits_per_word - 1);
+    if (i + 1 < words_for(roi.width)) near |= row[i + 1] & 1U;
+  }
+  return near;
+}
+
+/// Sobel of row y and its magnitude, near the region. `candidates`: its pixels whose magnitude is at least `threshold`.
+template <typename Loops>
+void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks blocks, int threshold, BitView candidates) {
+  if (blocks == 0) return;
+  const int width = roi.width;
+  const canny_words::Slopes slopes = {rows.column_sums(), rows.column_steps(), rows.gx(y), rows.gy(y),
+                                      rows.magnitude(y)};
+  for_each_run(blocks, width, [&](Columns columns) {
+    Loops::sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y),
+                        rows.blurred(std::min(y + 1, roi.height - 1)), std::max(columns.first - 1, 0),
+                        std::min(columns.end + 1, width), rows.column_sums(), rows.column_steps());
+  });
+  repeat_ends(rows.column_sums(), width);
+  repeat_ends(rows.column_steps(), width);
+  for (int i = 0; i < words_for(width); ++i) {
+    if (near_region(roi, y, i) == 0) continue;
+    const int x0 = i * bits_per_word;
+    candidates.row(y)[i] = roi.row(y)[i] & Loops::slopes(slopes, x0, std::min(x0 + bits_per_word, width), threshold);
   }
 }
 
@@ -107,9 +209,10 @@ struct GradientRows {
 
 /// 1 when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
 /// gradient direction the first stays.
-BitWord is_maximum(const GradientRows& neighbours, int x) {
-  const int gx = neighbours.gx[x];
-  const int gy = neighbours.gy[x];
+template <int Bias>
+std::uint32_t is_maximum(const GradientRows& neighbours, int x) {
+  const int gx = neighbours.gx[x] - Bias;
+  const int gy = neighbours.gy[x] - Bias;
   const int ax = gx < 0 ? -gx : gx;
   const int ay = gy < 0 ? -gy : gy;
   const int sx = gx < 0 ? -1 : 1;
@@ -126,92 +229,100 @@ BitWord is_maximum(const GradientRows& neighbours, int x) {
   // branch: on noise no processor could predict one.
   const int here = row[x] * most;
   const int ahead = side_ahead * (most - least) + corner_ahead * least;
+  if constexpr (!vector_registers) {  // no long pipeline either
+    if (here <= ahead) return 0;
+  }
   const int back = side_back * (most - least) + corner_back * least;
-  return (here > ahead ? BitWord{1} : BitWord{0}) & (here >= back ? BitWord{1} : BitWord{0});
+  return (here > ahead ? 1U : 0U) & (here >= back ? 1U : 0U);
 }
 
-/// Bits of 64 columns from `x0` whose magnitude is at least `threshold`.
-BitWord at_least(const std::uint16_t* magnitude, int x0, int end, int threshold) {
-  std::array<std::uint8_t, bits_per_word> flags{};
-  const int used = std::min(bits_per_word, end - x0);
-  for (int i = 0; i < used; ++i) flags[static_cast<std::size_t>(i)] = magnitude[x0 + i] >= threshold ? 1 : 0;
-  return pack_flags(flags.data());
-}
-
-/// Weak and strong maxima of row y inside the region.
-void find_maxima(const RollingRows& rows, int y, Columns columns, ConstBitView roi, const CannyThresholds& thresholds,
-                 BitView weak, BitView strong) {
+/// Of the candidates of row y the weak and the strong maxima.
+template <typename Loops>
+void find_maxima(const RollingRows& rows, int y, int strong_threshold, BitView weak, BitView strong) {
   const std::uint16_t* magnitude = rows.magnitude(y);
   const GradientRows gradients = {rows.gx(y), rows.gy(y), rows.magnitude(y - 1), magnitude, rows.magnitude(y + 1)};
-  for (int i = columns.first / bits_per_word; i * bits_per_word < columns.end; ++i) {
-    if (roi.row(y)[i] == 0) continue;
+  for (int i = 0; i < words_for(weak.width); ++i) {
     const int x0 = i * bits_per_word;
+    if (weak.row(y)[i] == 0) continue;
     BitWord maxima = 0;
-    BitWord candidates = roi.row(y)[i] & at_least(magnitude, x0, columns.end, thresholds.low * blur_scale);
-    if (candidates == 0) continue;
-    for (; candidates != 0; candidates &= candidates - 1) {
-      const int bit = std::countr_zero(candidates);
-      maxima |= is_maximum(gradients, x0 + bit) << bit;
+    BitWord high = 0;
+    for (int half = 0; half < bits_per_word; half += 32) {  // a register of a small processor each
+      std::uint32_t weak_bits = 0;
+      std::uint32_t strong_bits = 0;
+      for (auto left = static_cast<std::uint32_t>(weak.row(y)[i] >> half); left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        const std::uint32_t maximum = is_maximum<Loops::slope_bias>(gradients, x0 + half + bit) << bit;
+        weak_bits |= maximum;
+        if (magnitude[x0 + half + bit] >= strong_threshold) strong_bits |= maximum;
+      }
+      maxima |= BitWord{weak_bits} << half;
+      high |= BitWord{strong_bits} << half;
     }
     weak.row(y)[i] = maxima;
-    strong.row(y)[i] = maxima & at_least(magnitude, x0, columns.end, thresholds.high * blur_scale);
+    strong.row(y)[i] = high;
   }
 }
 
-struct Extent {
-  int top = 0;
-  int bottom = -1;
-  Columns columns;
-};
-
-/// Rows and columns (in whole words, and one more on either side) that the region reaches.
-Extent extent_of(ConstBitView roi) {
-  const int words = words_for(roi.width);
-  int first = words;
+/// Rows that the region reaches; none when last < first.
+struct Rows {
+  int first = 0;
   int last = -1;
-  Extent extent;
+};
+Rows rows_of(ConstBitView roi) {
+  Rows rows;
+  const int words = words_for(roi.width);
   for (int y = 0; y < roi.height; ++y) {
-    for (int i = 0; i < words; ++i) {
-      if (roi.row(y)[i] == 0) continue;
-      first = std::min(first, i);
-      last = std::max(last, i);
-      if (extent.bottom < 0) extent.top = y;
-      extent.bottom = y;
+    BitWord any = 0;
+    for (int i = 0; i < words; ++i) any |= roi.row(y)[i];
+    if (any == 0) continue;
+    if (rows.last < 0) rows.first = y;
+    rows.last = y;
+  }
+  return rows;
+}
+
+template <typename Loops>
+GrowResult find_edges_by(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
+                         CannyMemory memory, BitView weak, BitView edges) {
+  assert(gray.width == roi.width && gray.height == roi.height && gray.width == edges.width);
+  clear(weak);
+  clear(edges);
+  const Rows reached = rows_of(roi);
+  if (reached.last < reached.first) return {};
+  const RollingRows rows(memory, gray.width);
+  const int height = gray.height;
+  NearBlocks near(roi, reached.first - 4);
+  const auto blur = [&](int y) { blur_row<Loops>(gray, y, near.at(y), rows.vertical(), rows.blurred(y)); };
+
+  // Gradients of one row more on either side, as far as there are such.
+  const int first = std::max(reached.first - 1, 0);
+  const int last = std::min(reached.last + 1, height - 1);
+  for (int y = std::max(first - 1, 0); y <= first; ++y) blur(y);
+  for (int y = first; y <= last + 1; ++y) {
+    if (y + 1 < height) blur(y + 1);
+    if (y < height) {
+      gradient_row<Loops>(rows, roi, y, near.at(y), thresholds.low * blur_scale, weak);
+    } else {
+      std::fill_n(rows.magnitude(y), gray.width, std::uint16_t{0});  // beyond the image there is no edge
+    }
+    if (y - 1 >= reached.first && y - 1 <= reached.last) {
+      find_maxima<Loops>(rows, y - 1, thresholds.high * blur_scale, weak, edges);
     }
   }
-  extent.columns = {std::max(first * bits_per_word - 2, 0), std::min((last + 1) * bits_per_word + 2, roi.width)};
-  return extent;
+  return grow_inside(edges, weak);
 }
 
 }  // namespace
 
 GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
                       CannyMemory memory, BitView weak, BitView edges) {
-  assert(gray.width == roi.width && gray.height == roi.height && gray.width == edges.width);
-  clear(weak);
-  clear(edges);
-  const Extent extent = extent_of(roi);
-  if (extent.bottom < 0) return {};
-  const RollingRows rows(memory, gray.width);
-  const int height = gray.height;
-  const Columns columns = extent.columns;
+  using Loops = std::conditional_t<vector_registers, ByVectors, ByWords>;
+  return find_edges_by<Loops>(gray, roi, thresholds, memory, weak, edges);
+}
 
-  // Gradients of rows top - 1 to bottom + 1, as far as there are such.
-  const int first = std::max(extent.top - 1, 0);
-  const int last = std::min(extent.bottom + 1, height - 1);
-  for (int y = std::max(first - 1, 0); y <= std::min(first, height - 1); ++y) {
-    blur_row(gray, y, columns, rows.vertical(), rows.blurred(y));
-  }
-  for (int y = first; y <= last + 1; ++y) {
-    if (y + 1 < height) blur_row(gray, y + 1, columns, rows.vertical(), rows.blurred(y + 1));
-    if (y < height) {
-      gradient_row(rows, y, gray.width, height, columns);
-    } else {
-      std::fill_n(rows.magnitude(y), gray.width, std::uint16_t{0});  // beyond the image there is no edge
-    }
-    if (y - 1 >= extent.top && y - 1 <= extent.bottom) find_maxima(rows, y - 1, columns, roi, thresholds, weak, edges);
-  }
-  return grow_inside(edges, weak);
+GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
+                               const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
+  return find_edges_by<ByWords>(gray, roi, thresholds, memory, weak, edges);
 }
 
 }  // namespace touchline

@@ -42,5 +42,8 @@ struct CannyStorage {
 /// ended within its bound.
 GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
                       CannyMemory memory, BitView weak, BitView edges);
+/// The same by the loops of processors without vector registers, for the tests elsewhere.
+GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
+                               const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges);
 
 }  // namespace touchline

@@ -19,6 +19,10 @@ BitWord fill_right(BitWord seeds, BitWord mask, BitWord& carry) {
 /// Fills toward lower x, in doubling steps. `carry` is bit 63 where the word after it is filled to its edge.
 BitWord fill_left(BitWord seeds, BitWord mask, BitWord& carry) {
   BitWord fill = seeds | (mask & carry);
+  if (fill == 0 || fill == mask) {
+    carry = fill << (bits_per_word - 1);
+    return fill;
+  }
   BitWord through = mask;
   for (int shift = 1; shift < bits_per_word; shift *= 2) {
     fill |= through & (fill >> shift);
@@ -41,9 +45,14 @@ bool take_over(BitWord* seeds, const BitWord* mask, const BitWord* neighbour, in
   BitWord before = 0;
   for (int i = 0; i < words; ++i) {
     const BitWord here = neighbour[i];
+    const BitWord open = mask[i] & ~seeds[i];
+    if (open == 0) {
+      before = here;
+      continue;
+    }
     const BitWord after = i + 1 < words ? neighbour[i + 1] : 0;
     const BitWord reach = here | here << 1 | here >> 1 | before >> (bits_per_word - 1) | after << (bits_per_word - 1);
-    const BitWord added = reach & mask[i] & ~seeds[i];
+    const BitWord added = reach & open;
     seeds[i] |= added;
     any |= added;
     before = here;

@@ -75,9 +75,9 @@ struct Offsets {
 }
 
 [[gnu::always_inline]] inline std::int32_t least_white(const CarpetLimits& f, std::int32_t b, std::int32_t r) {
-  const std::int32_t along = most((b * f.axis_cb + r * f.axis_cr) / 256, 0);
-  const std::int32_t by_green = along * f.per_green / 256;
-  const std::int32_t by_chroma = (magnitude(b) + magnitude(r)) * f.per_chroma / 256;
+  const std::int32_t along = most(b * f.axis_cb + r * f.axis_cr, 0) >> 8;
+  const std::int32_t by_green = (along * f.per_green) >> 8;
+  const std::int32_t by_chroma = ((magnitude(b) + magnitude(r)) * f.per_chroma) >> 8;
   return least(most(most(f.shadow_luma, by_green), by_chroma), 255);
 }
 

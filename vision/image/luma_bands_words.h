@@ -5,12 +5,12 @@
 #pragma once
 
 #include "vision/image/luma_bands_loops.h"
+#include "vision/image/word_lanes.h"
 
 namespace touchline {
 namespace {
 namespace band_words {
 
-inline constexpr std::uint32_t bytes_02 = 0x00FF00FFU;
 inline constexpr std::uint32_t tops = 0x80008000U;
 inline constexpr std::uint16_t top = 0x8000U;
 inline constexpr int half_px = 32;  // pixels, a bit each, that one register takes
@@ -49,17 +49,26 @@ inline LumaBand coloured_band(const HsvBandPlan& f, std::int32_t b, std::int32_t
   return {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to)};
 }
 
-/// Whether any of the samples leaves anything. What has another hue is left at once.
+/// Whether any of the samples leaves anything. What has another hue is left at once: `Narrow` says that the range takes
+/// less than half of the hues, and no gray.
+template <bool Narrow>
 inline bool hsv_samples(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr, int count, Bands& out) {
+  const std::int32_t from_gray = -128 * (f.from.a + f.from.b);
+  const std::int32_t to_gray = -128 * (f.to.a + f.to.b);
+  const ChromaHalfPlane first = f.from, last = f.to;
   bool any = false;
   for (int i = 0; i < count; ++i) {
-    const std::int32_t b = cb[i] - 128;
-    const std::int32_t r = cr[i] - 128;
-    const bool past_first = f.from.a * b + f.from.b * r >= 0;
-    const bool before_last = f.to.a * b + f.to.b * r < 0;
-    const bool hue = f.wide ? past_first || before_last : past_first && before_last;
-    LumaBand band;
-    if (hue || f.any_hue || (b == 0 && r == 0)) band = coloured_band(f, b, r);
+    // Below zero where the hue is at or past the first, and before the end of the last.
+    const std::int32_t past_first = ~(from_gray + first.a * cb[i] + first.b * cr[i]);
+    const std::int32_t before_last = to_gray + last.a * cb[i] + last.b * cr[i];
+    bool hue = (past_first & before_last) < 0;
+    if constexpr (!Narrow) hue = hue || f.any_hue || (f.wide && (past_first | before_last) < 0);
+    if (!hue && (Narrow || cb[i] != 128 || cr[i] != 128)) {
+      out.from[i] = top - 255;
+      out.to[i] = top;
+      continue;
+    }
+    const LumaBand band = coloured_band(f, cb[i] - 128, cr[i] - 128);
     any = any || band.low <= band.high;
     out.from[i] = static_cast<std::uint16_t>(top - band.low);
     out.to[i] = static_cast<std::uint16_t>(top + band.high);
@@ -88,12 +97,13 @@ inline std::uint32_t half_word(const std::uint8_t* y, const std::uint16_t* from,
   for (int i = 0; i < half_px; i += 4) {
     const std::uint32_t luma = load_word(y + i);
     const std::uint32_t low = load_word(from + i / 2);
-    std::uint32_t even = (luma & bytes_02) + low;
-    std::uint32_t odd = (luma >> 8U & bytes_02) + low;
+    const std::uint32_t luma_02 = even_bytes(luma), luma_13 = odd_bytes(luma);
+    std::uint32_t even = luma_02 + low;
+    std::uint32_t odd = luma_13 + low;
     if constexpr (Bounded) {
       const std::uint32_t high = load_word(to + i / 2);
-      even &= high - (luma & bytes_02);
-      odd &= high - (luma >> 8U & bytes_02);
+      even &= high - luma_02;
+      odd &= high - luma_13;
     }
     bits = bits >> 4U | four_bits(even, odd);
   }
@@ -103,8 +113,9 @@ inline std::uint32_t half_word(const std::uint8_t* y, const std::uint16_t* from,
 /// 64 pixels, of which `used` may be read.
 template <bool Bounded>
 inline std::uint64_t whole_word(const std::uint8_t* y, int used, std::uint64_t wanted, const Bands& band) {
-  std::uint8_t copy[bands::word_px] = {};
+  std::uint8_t copy[bands::word_px];
   if (used < bands::word_px) {
+    for (std::uint8_t& pixel : copy) pixel = 0;
     __builtin_memcpy(copy, y, static_cast<std::size_t>(used));
     y = copy;
   }
@@ -135,8 +146,11 @@ inline void in_rows(const BandRows& rows, Make make) {
 
 inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const HsvBandPlan f = plan;
+  const bool narrow = !f.wide && !f.any_hue && f.neutral.low > f.neutral.high;
   in_rows<true>(rows, [&](int first, int count, Bands& out) {
-    return hsv_samples(f, rows.cb + first, rows.cr + first, count, out);
+    const std::uint8_t* cb = rows.cb + first;
+    const std::uint8_t* cr = rows.cr + first;
+    return narrow ? hsv_samples<true>(f, cb, cr, count, out) : hsv_samples<false>(f, cb, cr, count, out);
   });
 }
 

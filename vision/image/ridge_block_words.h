@@ -4,13 +4,13 @@
 #pragma once
 
 #include "vision/image/ridge_block_loops.h"
+#include "vision/image/word_lanes.h"
 
 namespace touchline {
 namespace {
 namespace ridge_words {
 
 inline constexpr int px = ridge_block_px;
-inline constexpr std::uint32_t bytes_02 = 0x00FF00FFU;
 inline constexpr std::uint32_t both_lanes = 0x00010001U;
 inline constexpr std::uint32_t tops = 0x80008000U;
 
@@ -20,28 +20,28 @@ inline std::uint32_t load_word(const void* from) {
   return word;
 }
 
-/// Sums of weight 4, and what a pixel has to reach to stand out weakly from a side with that sum.
+/// Sums of weight 4, and what a pixel has to exceed by the margin to stand out from a side with that sum.
 struct Row {
   std::uint16_t sum[ridge::patch_columns];
   std::uint16_t bar[ridge::patch_columns];
 };
 
 /// Four pixels: a + 2 b + c.
-inline void sum_four(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, std::uint32_t margins,
-                     std::uint16_t* sum, std::uint16_t* bar) {
+inline void sum_four(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, std::uint16_t* sum,
+                     std::uint16_t* bar) {
   const std::uint32_t wa = load_word(a), wb = load_word(b), wc = load_word(c);
-  const std::uint32_t even = (wa & bytes_02) + 2 * (wb & bytes_02) + (wc & bytes_02);
-  const std::uint32_t odd = (wa >> 8U & bytes_02) + 2 * (wb >> 8U & bytes_02) + (wc >> 8U & bytes_02);
+  const std::uint32_t even = add_even_bytes(add_even_bytes(even_bytes(wa), wc) + even_bytes(wb), wb);
+  const std::uint32_t odd = add_odd_bytes(add_odd_bytes(odd_bytes(wa), wc) + odd_bytes(wb), wb);
   const std::uint32_t words[2] = {(even & 0xFFFFU) | odd << 16U, even >> 16U | (odd & 0xFFFF0000U)};
   for (int i = 0; i < 2; ++i) {
-    const std::uint32_t high = words[i] + (words[i] >> 4U & 0x0FFF0FFFU) + margins;
+    const std::uint32_t high = words[i] + (words[i] >> 4U & 0x0FFF0FFFU);
     __builtin_memcpy(sum + 2 * i, &words[i], sizeof high);
     __builtin_memcpy(bar + 2 * i, &high, sizeof high);
   }
 }
 
 struct Margins {
-  std::uint32_t weak;   // and one: reaching it is being larger
+  std::uint32_t weak;   // 0x8000 less it and one: the top bit stays where a pixel is larger
   std::uint32_t extra;  // that strong asks for beyond weak
 };
 
@@ -50,9 +50,9 @@ inline void compare_row(const std::uint16_t* here, const std::uint16_t* before, 
                         const Margins& margins, int row, std::uint64_t& weak, std::uint64_t& strong) {
   std::uint32_t weak_bits = 0, strong_bits = 0;
   for (int i = 0; i < px; i += 2) {
-    const std::uint32_t sum = load_word(here + i) | tops;
+    const std::uint32_t sum = load_word(here + i) + margins.weak;
     const std::uint32_t b = load_word(before + i), a = load_word(after + i);
-    const std::uint32_t found = (sum - b) & (sum - a) & tops;  // the top bit stays where nothing is borrowed
+    const std::uint32_t found = (sum - b) & (sum - a) & tops;
     if (found == 0) continue;
     weak_bits |= (found >> 15U & 1U) << i | (found >> 31U) << (i + 1);
     const std::uint32_t more = (sum - b - margins.extra) & (sum - a - margins.extra) & found;
@@ -80,7 +80,7 @@ inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, 
     const std::uint8_t* below = patch.row(block.y0 + r + 1);
     Row row;
     for (int i = first; i < end; i += 4) {
-      sum_four(above + i, here + i, below + i, margins.weak, row.sum + i, row.bar + i);
+      sum_four(above + i, here + i, below + i, row.sum + i, row.bar + i);
     }
     const std::uint16_t* sums = row.sum + ridge::margin_px;
     const std::uint16_t* bars = row.bar + ridge::margin_px;
@@ -99,7 +99,7 @@ inline void look_along_columns(const RidgeBlock& block, const ridge::Patch& patc
   for (int r = max_ridge_reach_px - reach; r < max_ridge_reach_px + px + reach; ++r) {
     const std::uint8_t* here = patch.row(block.y0 - max_ridge_reach_px + r) + ridge::margin_px;
     for (int i = 0; i < px; i += 4) {
-      sum_four(here + i - 1, here + i, here + i + 1, margins.weak, sums[r] + i, bars[r] + i);
+      sum_four(here + i - 1, here + i, here + i + 1, sums[r] + i, bars[r] + i);
     }
   }
   for (int k = 0; k < block.column_looks; ++k) {
@@ -115,7 +115,7 @@ inline void find_ridges(const RidgeBlock& block, RidgeBits& out) {
   ridge::Copy copy;
   const ridge::Patch patch = ridge::make_patch(block, copy);
   const auto lanes = [](int value) { return static_cast<std::uint32_t>(value) * both_lanes; };
-  const Margins margins = {lanes(block.weak_margin + 1), lanes(block.strong_margin - block.weak_margin)};
+  const Margins margins = {tops - lanes(block.weak_margin + 1), lanes(block.strong_margin - block.weak_margin)};
   out = {};
   if (block.row_looks > 0) look_along_rows(block, patch, margins, out);
   if (block.column_looks > 0) look_along_columns(block, patch, margins, out);

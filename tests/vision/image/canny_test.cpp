@@ -84,6 +84,10 @@ Bits edges_of(const Gray& gray, const Bits& roi, CannyThresholds t) {
   Bits weak(gray.width, gray.height), edges(gray.width, gray.height);
   CHECK(find_edges(gray.view(), roi.view(), t, {rows}, weak.view(), edges.view()).finished);
   CHECK(padding_is_clear(edges.view()));
+  // Processors without vector registers see the same.
+  Bits by_words(gray.width, gray.height);
+  CHECK(find_edges_by_words(gray.view(), roi.view(), t, {rows}, weak.view(), by_words.view()).finished);
+  REQUIRE(by_words == edges);
   return edges;
 }
 
