@@ -32,8 +32,8 @@ inline void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const 
     const std::uint32_t a = load(above + x), h = load(here + x), b = load(below + x);
     const std::uint32_t even = add_even_bytes(add_even_bytes(even_bytes(a), b) + even_bytes(h), h);
     const std::uint32_t odd = add_odd_bytes(add_odd_bytes(odd_bytes(a), b) + odd_bytes(h), h);
-    store(out + x, (even & 0xFFFFU) | odd << 16U);
-    store(out + x + 2, even >> 16U | (odd & 0xFFFF0000U));
+    store(out + x, lower_halves(even, odd));
+    store(out + x + 2, upper_halves(even, odd));
   }
   for (; x < end; ++x) out[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
 }

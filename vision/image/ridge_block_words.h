@@ -20,19 +20,25 @@ inline std::uint32_t load_word(const void* from) {
   return word;
 }
 
-/// Sums of weight 4, and what a pixel has to exceed by the margin to stand out from a side with that sum.
-struct Row {
-  std::uint16_t sum[ridge::patch_columns];
-  std::uint16_t bar[ridge::patch_columns];
+/// Rows of sums of weight 4, and what a pixel has to exceed by the margin to stand out from a side with that sum.
+template <std::size_t Rows, std::size_t Columns>
+struct Sums {
+  std::uint16_t sum[Rows][Columns];
+  std::uint16_t bar[Rows][Columns];
 };
 
-/// Four pixels: a + 2 b + c.
-inline void sum_four(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, std::uint16_t* sum,
-                     std::uint16_t* bar) {
-  const std::uint32_t wa = load_word(a), wb = load_word(b), wc = load_word(c);
-  const std::uint32_t even = add_even_bytes(add_even_bytes(even_bytes(wa), wc) + even_bytes(wb), wb);
-  const std::uint32_t odd = add_odd_bytes(add_odd_bytes(odd_bytes(wa), wc) + odd_bytes(wb), wb);
-  const std::uint32_t words[2] = {(even & 0xFFFFU) | odd << 16U, even >> 16U | (odd & 0xFFFF0000U)};
+/// Four pixels: 0 and 2, 1 and 3.
+struct Four {
+  std::uint32_t even, odd;
+  explicit Four(const void* from) : Four(load_word(from)) {}
+  explicit Four(std::uint32_t word) : even(even_bytes(word)), odd(odd_bytes(word)) {}
+  Four(std::uint32_t e, std::uint32_t o) : even(e), odd(o) {}
+};
+inline Four operator+(const Four& a, const Four& b) { return {a.even + b.even, a.odd + b.odd}; }
+
+/// In the order of the pixels.
+inline void store_sums(const Four& four, std::uint16_t* sum, std::uint16_t* bar) {
+  const std::uint32_t words[2] = {lower_halves(four.even, four.odd), upper_halves(four.even, four.odd)};
   for (int i = 0; i < 2; ++i) {
     const std::uint32_t high = words[i] + (words[i] >> 4U & 0x0FFF0FFFU);
     __builtin_memcpy(sum + 2 * i, &words[i], sizeof high);
@@ -74,19 +80,26 @@ inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, 
   const int reach = longest(block.row_reach, block.row_looks);
   const int first = (ridge::margin_px - reach) & ~3;
   const int end = ridge::margin_px + px + reach;
-  for (int r = 0; r < px; ++r) {
-    const std::uint8_t* above = patch.row(block.y0 + r - 1);
-    const std::uint8_t* here = patch.row(block.y0 + r);
-    const std::uint8_t* below = patch.row(block.y0 + r + 1);
-    Row row;
-    for (int i = first; i < end; i += 4) {
-      sum_four(above + i, here + i, below + i, row.sum + i, row.bar + i);
+  const std::uint8_t* rows[px + 2];
+  for (int r = 0; r < px + 2; ++r) rows[r] = patch.row(block.y0 + r - 1);
+  Sums<px, ridge::patch_columns> sums;
+  for (int i = first; i < end; i += 4) {
+    // a + 2 b + c is (a + b) + (b + c), and each pair serves two rows.
+    Four here(rows[1] + i);
+    Four pair = Four(rows[0] + i) + here;
+    for (int r = 0; r < px; ++r) {
+      const Four below(rows[r + 2] + i);
+      const Four next = here + below;
+      store_sums(pair + next, &sums.sum[r][i], &sums.bar[r][i]);
+      here = below;
+      pair = next;
     }
-    const std::uint16_t* sums = row.sum + ridge::margin_px;
-    const std::uint16_t* bars = row.bar + ridge::margin_px;
+  }
+  for (int r = 0; r < px; ++r) {
+    const std::uint16_t* bars = sums.bar[r] + ridge::margin_px;
     for (int k = 0; k < block.row_looks; ++k) {
-      compare_row(sums, bars - block.row_reach[k], bars + block.row_reach[k], margins, r, out.row_weak[k],
-                  out.row_strong[k]);
+      compare_row(sums.sum[r] + ridge::margin_px, bars - block.row_reach[k], bars + block.row_reach[k], margins, r,
+                  out.row_weak[k], out.row_strong[k]);
     }
   }
 }
@@ -94,18 +107,20 @@ inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, 
 inline void look_along_columns(const RidgeBlock& block, const ridge::Patch& patch, const Margins& margins,
                                RidgeBits& out) {
   const int reach = longest(block.column_reach, block.column_looks);
-  std::uint16_t sums[ridge::across_rows][px];
-  std::uint16_t bars[ridge::across_rows][px];
+  Sums<ridge::across_rows, px> sums;
   for (int r = max_ridge_reach_px - reach; r < max_ridge_reach_px + px + reach; ++r) {
     const std::uint8_t* here = patch.row(block.y0 - max_ridge_reach_px + r) + ridge::margin_px;
     for (int i = 0; i < px; i += 4) {
-      sum_four(here + i - 1, here + i, here + i + 1, sums[r] + i, bars[r] + i);
+      // Pixels -1, 1 | 0, 2 and 1, 3 | 2, 4: each is a neighbour or the middle of two sums.
+      const Four before(here + i - 1), after(here + i + 1);
+      store_sums({before.even + 2 * before.odd + after.even, before.odd + 2 * after.even + after.odd}, &sums.sum[r][i],
+                 &sums.bar[r][i]);
     }
   }
   for (int k = 0; k < block.column_looks; ++k) {
     for (int r = 0; r < px; ++r) {
       const int at = max_ridge_reach_px + r;
-      compare_row(sums[at], bars[at - block.column_reach[k]], bars[at + block.column_reach[k]], margins, r,
+      compare_row(sums.sum[at], sums.bar[at - block.column_reach[k]], sums.bar[at + block.column_reach[k]], margins, r,
                   out.column_weak[k], out.column_strong[k]);
     }
   }

@@ -32,7 +32,9 @@ inline std::uint32_t excess(std::uint32_t a, std::uint32_t b) {
 inline std::uint32_t even_bytes(std::uint32_t v) { return v & 0x00FF00FFU; }
 inline std::uint32_t odd_bytes(std::uint32_t v) {
 #if defined(__ARM_FEATURE_SIMD32)
-  return __uxtb16(std::rotr(v, 8));
+  std::uint32_t halves = 0;
+  __asm__("uxtb16 %0, %1, ror #8" : "=r"(halves) : "r"(v));  // the compiler's own function rotates first
+  return halves;
 #else
   return v >> 8U & 0x00FF00FFU;
 #endif
@@ -47,9 +49,30 @@ inline std::uint32_t add_even_bytes(std::uint32_t sum, std::uint32_t v) {
 }
 inline std::uint32_t add_odd_bytes(std::uint32_t sum, std::uint32_t v) {
 #if defined(__ARM_FEATURE_SIMD32)
-  return __uxtab16(sum, std::rotr(v, 8));
+  __asm__("uxtab16 %0, %0, %1, ror #8" : "+r"(sum) : "r"(v));
+  return sum;
 #else
   return sum + odd_bytes(v);
+#endif
+}
+
+/// The lower halves of two words, and the upper ones.
+inline std::uint32_t lower_halves(std::uint32_t a, std::uint32_t b) {
+#if defined(__ARM_FEATURE_SIMD32)
+  std::uint32_t both = 0;
+  __asm__("pkhbt %0, %1, %2, lsl #16" : "=r"(both) : "r"(a), "r"(b));
+  return both;
+#else
+  return (a & 0xFFFFU) | b << 16U;
+#endif
+}
+inline std::uint32_t upper_halves(std::uint32_t a, std::uint32_t b) {
+#if defined(__ARM_FEATURE_SIMD32)
+  std::uint32_t both = 0;
+  __asm__("pkhtb %0, %1, %2, asr #16" : "=r"(both) : "r"(b), "r"(a));
+  return both;
+#else
+  return a >> 16U | (b & 0xFFFF0000U);
 #endif
 }
 
