@@ -28,8 +28,9 @@ LineSample make_sample(const LinePoint& p, const CameraPose& camera, const Local
   LineSample s;
   s.ray = p.ray;
   s.ground = p.ground;
-  s.dir_x = math::cos(p.direction);
-  s.dir_y = math::sin(p.direction);
+  const auto [sine, cosine] = math::sin_cos(p.direction);
+  s.dir_x = cosine;
+  s.dir_y = sine;
   s.sigma = math::hypot(p.sigma, config.line_sigma_floor);
   s.sigma_tilt = tilt_across(p.ground, camera, s.dir_x, s.dir_y, config.tilt_sigma);
   const float h = camera.height;

@@ -67,8 +67,7 @@ struct Sums {
 Sums linearise(const Field& field, std::span<const LineSample> samples, const CameraPose& camera, const TiltAxes& axes,
                const State& state, float base, float reach) {
   Sums sums;
-  const float c = math::cos(state.pose.theta);
-  const float sn = math::sin(state.pose.theta);
+  const auto [sn, c] = math::sin_cos(state.pose.theta);
   for (const LineSample& s : samples) {
     sums.weight += s.weight;
     const float sigma = math::hypot(s.sigma, base);

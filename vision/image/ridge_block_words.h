@@ -131,7 +131,6 @@ inline void find_ridges(const RidgeBlock& block, RidgeBits& out) {
   const ridge::Patch patch = ridge::make_patch(block, copy);
   const auto lanes = [](int value) { return static_cast<std::uint32_t>(value) * both_lanes; };
   const Margins margins = {tops - lanes(block.weak_margin + 1), lanes(block.strong_margin - block.weak_margin)};
-  out = {};
   if (block.row_looks > 0) look_along_rows(block, patch, margins, out);
   if (block.column_looks > 0) look_along_columns(block, patch, margins, out);
 }
