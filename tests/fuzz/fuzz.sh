@@ -22,22 +22,27 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=cl
 cmake --build "$build" --target "${targets[@]/#/fuzz_}" >build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
 
 limit() { case $1 in image) echo 16384 ;; gait) echo 2048 ;; hid) echo 128 ;; *) echo 4096 ;; esac; }
-for target in "${targets[@]}"; do
-  corpus=tests/fuzz/corpus/$target
-  found=$build/found/$target
+# Says all it has to say at once: two targets run at a time.
+fuzz_one() {  # fuzz_one TARGET
+  local target=$1 corpus=tests/fuzz/corpus/$1 found=$build/found/$1
   mkdir -p "$corpus" "$found"
-  echo "=== fuzz $target for $seconds s"
   "$build/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len="$(limit "$target")" -timeout=10 -rss_limit_mb=2048 \
     -print_final_stats=1 -artifact_prefix="$build/$target-" "$found" "$corpus" >"$build/$target.log" 2>&1 ||
-    { tail -40 "$build/$target.log"; echo "=== fuzz $target: FAILED, the input is in $build/$target-*"; exit 1; }
-  grep -E 'number_of_executed_units|average_exec_per_sec' "$build/$target.log"
-  if [ $keep = 1 ]; then
-    rm -rf "$build/merged"
-    mkdir -p "$build/merged"
-    "$build/tests/fuzz/fuzz_$target" -merge=1 -max_len="$(limit "$target")" "$build/merged" "$corpus" "$found" >"$build/merge.log" 2>&1
-    rm -rf "$corpus"
-    mkdir -p "$corpus"
-    cp "$build/merged"/* "$corpus"/
-    echo "corpus of $target: $(find "$corpus" -type f | wc -l) inputs"
-  fi
-done
+    { echo "$(tail -40 "$build/$target.log")"$'\n'"=== fuzz $target: FAILED, the input is in $build/$target-*"; return 1; }
+  echo "=== fuzz $target for $seconds s: $(awk '/number_of_executed_units/ {print $2}' "$build/$target.log") inputs, no finding"
+}
+keep_corpus() {  # keep_corpus TARGET
+  local target=$1 corpus=tests/fuzz/corpus/$1
+  rm -rf "$build/merged"
+  mkdir -p "$build/merged"
+  "$build/tests/fuzz/fuzz_$target" -merge=1 -max_len="$(limit "$target")" "$build/merged" "$corpus" "$build/found/$target" >"$build/merge.log" 2>&1
+  rm -rf "$corpus"
+  mkdir -p "$corpus"
+  cp "$build/merged"/* "$corpus"/
+  echo "corpus of $target: $(find "$corpus" -type f | wc -l) inputs"
+}
+
+export build seconds
+export -f limit fuzz_one
+printf '%s\n' "${targets[@]}" | xargs -P "$(nproc)" -I{} bash -c 'fuzz_one {}'
+[ $keep = 0 ] || for target in "${targets[@]}"; do keep_corpus "$target"; done
