@@ -26,6 +26,9 @@ json angle(float value) { return rounded(static_cast<double>(degrees(value)), 1e
 json share(float value) { return rounded(static_cast<double>(value), 1e-3); }
 json pixels(float value) { return rounded(static_cast<double>(value), 1e-2); }
 
+/// File names may hold any bytes; what is no UTF-8 becomes the replacement character.
+std::string in_utf8(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
 json pose_json(const Pose2& pose) {
   return {{"x_m", metres(pose.x)}, {"y_m", metres(pose.y)}, {"theta_deg", angle(pose.theta)}};
 }
@@ -205,7 +208,7 @@ std::string json_line(const std::string& set, const FrameRecord& record) {
   out["t_s"] = record.frame.has_time ? json(record.frame.time_s) : json(nullptr);
   if (!record.failure.empty()) {
     out["failure"] = record.failure;
-    return out.dump();
+    return in_utf8(out);
   }
   out["pose"] = e.valid ? pose_json(e.pose) : json(nullptr);
   out["std"] = e.valid ? std_json(e.covariance) : json(nullptr);
@@ -217,7 +220,7 @@ std::string json_line(const std::string& set, const FrameRecord& record) {
   out["shows"] = record.shows;
   out["settled"] = record.settled;
   if (record.error) out["error"] = error_json(*record.error);
-  return out.dump();
+  return in_utf8(out);
 }
 
 std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptions& options) {
@@ -238,7 +241,7 @@ std::string json_summary(const std::vector<SetResult>& sets, const EvaluateOptio
                   {"seed", options.seed}};
   summary.update(figures(summarize(all)));
   summary["sets"] = per_set;
-  return json{{"summary", summary}}.dump();
+  return in_utf8(json{{"summary", summary}});
 }
 
 void print_table_head(std::ostream& out, const DataSet& set, const EvaluateOptions& options) {

@@ -259,6 +259,15 @@ TEST_CASE("a frame that cannot be used is told, the others are evaluated, and th
   CHECK(contains(lines.out, "\"frames\":3,\"failed\":1,"));
 }
 
+TEST_CASE("an image's name may hold bytes that are no UTF-8") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const Run lines = run({"locate", "--camera", folder.path().string(), "--json", "\xFF.png"});
+  check_refused(lines, ".png: no such image");
+  CHECK(std::count(lines.out.begin(), lines.out.end(), '\n') == 2);
+  CHECK(nlohmann::json::accept(lines.out.substr(0, lines.out.find('\n'))));
+}
+
 TEST_CASE("where nothing counts there is a dash, not a perfect figure") {
   const TempFolder folder;
   write_tiny(folder, "protocol = \"sequence\"\n" + std::string(toml),
