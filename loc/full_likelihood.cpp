@@ -88,7 +88,7 @@ float line_log_likelihood(const DistanceField& map, const Observation& observati
     const float dx = c * p.dir_x - s * p.dir_y;
     const float dy = s * p.dir_x + c * p.dir_y;
     const float d = map.distance_inline({x, y}, axis_of(dx, dy));
-    const float variance = p.sigma * p.sigma + p.sigma_tilt * p.sigma_tilt + extra_sigma * extra_sigma;
+    const float variance = p.variance + extra_sigma * extra_sigma;
     sum -= p.weight * robust_cost(d * d / variance);
   }
   return sum;

@@ -32,7 +32,8 @@ LineSample make_sample(const LinePoint& p, const CameraPose& camera, const Local
   s.dir_x = cosine;
   s.dir_y = sine;
   s.sigma = math::hypot(p.sigma, config.line_sigma_floor);
-  s.sigma_tilt = tilt_across(p.ground, camera, s.dir_x, s.dir_y, config.tilt_sigma);
+  const float tilt = tilt_across(p.ground, camera, s.dir_x, s.dir_y, config.tilt_sigma);
+  s.variance = s.sigma * s.sigma + tilt * tilt;
   const float h = camera.height;
   const float spread = config.tilt_sigma *
                        (h * h + math::square(p.ground.x - camera.x) + math::square(p.ground.y - camera.y)) /

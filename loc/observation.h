@@ -17,9 +17,9 @@ struct LineSample {
   GroundPoint ground;  // with the attitude as given
   float dir_x = 1.0F;  // unit direction of the line on the ground, robot's frame
   float dir_y = 0.0F;
-  float sigma = 0.0F;       // metres across the line: pixel and floor, not the tilt
-  float sigma_tilt = 0.0F;  // metres across the line that one sigma of pitch and roll make
-  float weight = 1.0F;      // independent measurements that it stands for; neighbours on one line share their errors
+  float sigma = 0.0F;     // metres across the line: pixel and floor, not the tilt
+  float variance = 0.0F;  // square metres across the line: sigma, and what one sigma of pitch and roll make
+  float weight = 1.0F;    // independent measurements that it stands for; neighbours on one line share their errors
 };
 
 inline constexpr std::size_t max_line_samples = 512;

@@ -110,7 +110,7 @@ struct Search {
     const std::size_t step = (observation.filter_lines.size() + grid_samples - 1) / grid_samples;
     for (std::size_t i = 0; i < observation.filter_lines.size(); i += step) {
       const LineSample& p = observation.filter_lines[i];
-      const float variance = p.sigma * p.sigma + p.sigma_tilt * p.sigma_tilt + coarse_sigma * coarse_sigma;
+      const float variance = p.variance + coarse_sigma * coarse_sigma;
       turned.push_back({c * p.ground.x - s * p.ground.y, s * p.ground.x + c * p.ground.y, 1.0F / variance, p.weight,
                         axis_of(c * p.dir_x - s * p.dir_y, s * p.dir_x + c * p.dir_y)});
     }

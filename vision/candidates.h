@@ -29,9 +29,9 @@ enum class CandidateRejection : std::uint8_t {
 const char* to_string(CandidateRejection reason);
 inline constexpr std::size_t candidate_rejections = static_cast<std::size_t>(CandidateRejection::count);
 
-/// Where an edge can be a line's: blocks of 8x8 pixels in which, or in whose eight neighbours, there is white, and green
-/// likewise. A line's edge has both within three pixels; the rest lets weak edges lead to strong ones. `zone` is set.
-/// Widths up to max_mask_width.
+/// Where an edge can be a line's: blocks of 8x8 pixels in which, or in whose eight neighbours, there is white, and
+/// green likewise. A line's edge has both within three pixels; the rest lets weak edges lead to strong ones. `zone` is
+/// set. Widths up to max_mask_width.
 void find_edge_zone(ConstBitView white, ConstBitView green, BitView zone);
 
 /// Thresholds that noise of the measured strength passes rarely: 4 and 8 times its gradient.

@@ -27,16 +27,17 @@ inline std::uint32_t load_word(const void* from) {
 }
 
 /// One chroma sample whose hue is in the range.
+template <bool Narrow>
 inline LumaBand coloured_band(const HsvBandPlan& f, std::int32_t b, std::int32_t r) {
   const bands::Offsets o = bands::offsets(b, r);
   const std::int32_t largest = bands::most(bands::most(o.red, o.green), o.blue);
   const std::int32_t chroma = largest - bands::least(bands::least(o.red, o.green), o.blue);
-  if (chroma == 0) return f.neutral;
+  if constexpr (!Narrow) {
+    if (chroma == 0) return f.neutral;
+  }
   const std::int32_t value_offset = (largest + 128) >> bands::offset_bits;
-  std::int32_t from = 0;
-  std::int32_t to = 255;
-  if (f.value_low != 0) from = bands::most(0, f.value_low - value_offset);
-  if (f.value_high != 255) to = bands::least(255, f.value_high - value_offset);
+  std::int32_t from = f.value_low == 0 ? 0 : bands::most(0, f.value_low - value_offset);
+  std::int32_t to = f.value_high == 255 ? 255 : bands::least(255, f.value_high - value_offset);
   if (f.divisor_high != 0) {
     const std::int32_t t = 510 * chroma - f.divisor_high * largest;
     from = bands::most(from, bands::luma_quotient(t, f.divisor_high, f.reciprocal_high) + 1);
@@ -68,7 +69,7 @@ inline bool hsv_samples(const HsvBandPlan& f, const std::uint8_t* cb, const std:
       out.to[i] = top;
       continue;
     }
-    const LumaBand band = coloured_band(f, cb[i] - 128, cr[i] - 128);
+    const LumaBand band = coloured_band<Narrow>(f, cb[i] - 128, cr[i] - 128);
     any = any || band.low <= band.high;
     out.from[i] = static_cast<std::uint16_t>(top - band.low);
     out.to[i] = static_cast<std::uint16_t>(top + band.high);

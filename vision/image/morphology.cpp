@@ -4,6 +4,8 @@
 // rolling rows, is all it takes.
 #include "vision/image/morphology.h"
 
+#include <algorithm>
+
 #include "vision/image/bit_ops.h"
 
 namespace touchline {
@@ -11,18 +13,27 @@ namespace {
 
 constexpr int max_row_words = words_for(max_mask_width);
 
+/// `nothing`: what joins to an empty row when these of three are empty.
 struct Dilation {
+  static bool nothing(bool above, bool here, bool below) { return above && here && below; }
   static constexpr BitWord outside = 0;
   static BitWord join(BitWord a, BitWord b) { return a | b; }
 };
 struct Erosion {
+  static bool nothing(bool above, bool here, bool below) { return above || here || below; }
   static constexpr BitWord outside = ~BitWord{0};
   static BitWord join(BitWord a, BitWord b) { return a & b; }
 };
 
-/// Joins every pixel of a row with its left and right neighbours.
+/// Joins every pixel of a row with its left and right neighbours. True when the row is empty, as `out` is then.
 template <typename Operation>
-void join_along_row(const BitWord* row, int words, BitWord inside_last, BitWord* out) {
+bool join_along_row(const BitWord* row, int words, BitWord inside_last, BitWord* out) {
+  BitWord any = 0;
+  for (int i = 0; i < words; ++i) any |= row[i];
+  if (any == 0) {
+    for (int i = 0; i < words; ++i) out[i] = 0;
+    return true;
+  }
   const BitWord outside_last = Operation::outside & ~inside_last;
   BitWord left = Operation::outside;
   BitWord here = row[0] | (words == 1 ? outside_last : 0);
@@ -35,6 +46,7 @@ void join_along_row(const BitWord* row, int words, BitWord inside_last, BitWord*
     left = here;
     here = right;
   }
+  return false;
 }
 
 template <typename Operation>
@@ -46,16 +58,24 @@ void pass_3x3(BitView mask) {
   BitWord* here = rows[1].data();
   BitWord* below = rows[2].data();
   for (int i = 0; i < words; ++i) above[i] = Operation::outside;
-  join_along_row<Operation>(mask.row(0), words, inside_last, here);
+  bool above_empty = Operation::outside == 0;
+  bool here_empty = join_along_row<Operation>(mask.row(0), words, inside_last, here);
   for (int y = 0; y < mask.height; ++y) {
+    bool below_empty = Operation::outside == 0;
     if (y + 1 < mask.height) {
-      join_along_row<Operation>(mask.row(y + 1), words, inside_last, below);
+      below_empty = join_along_row<Operation>(mask.row(y + 1), words, inside_last, below);
     } else {
       for (int i = 0; i < words; ++i) below[i] = Operation::outside;
     }
     BitWord* out = mask.row(y);
-    for (int i = 0; i < words; ++i) out[i] = Operation::join(Operation::join(above[i], here[i]), below[i]);
-    out[words - 1] &= inside_last;
+    if (Operation::nothing(above_empty, here_empty, below_empty)) {
+      if (!here_empty) std::fill_n(out, words, BitWord{0});
+    } else {
+      for (int i = 0; i < words; ++i) out[i] = Operation::join(Operation::join(above[i], here[i]), below[i]);
+      out[words - 1] &= inside_last;
+    }
+    above_empty = here_empty;
+    here_empty = below_empty;
     BitWord* oldest = above;
     above = here;
     here = below;

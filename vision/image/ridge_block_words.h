@@ -108,8 +108,11 @@ inline void look_along_columns(const RidgeBlock& block, const ridge::Patch& patc
                                RidgeBits& out) {
   const int reach = longest(block.column_reach, block.column_looks);
   Sums<ridge::across_rows, px> sums;
+  const bool inside = block.y0 - reach >= patch.first_row && block.y0 + px + reach <= patch.last_row;
   for (int r = max_ridge_reach_px - reach; r < max_ridge_reach_px + px + reach; ++r) {
-    const std::uint8_t* here = patch.row(block.y0 - max_ridge_reach_px + r) + ridge::margin_px;
+    const int y = block.y0 - max_ridge_reach_px + r;
+    const std::uint8_t* here =
+        ridge::margin_px + (inside ? patch.corner + (y - patch.first_row) * patch.stride : patch.row(y));
     for (int i = 0; i < px; i += 4) {
       // Pixels -1, 1 | 0, 2 and 1, 3 | 2, 4: each is a neighbour or the middle of two sums.
       const Four before(here + i - 1), after(here + i + 1);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cstring>
 
-#include "vision/image/word_lanes.h"
 #include "vision/image/colour_matrix.h"
+#include "vision/image/word_lanes.h"
 
 namespace touchline {
 namespace {
