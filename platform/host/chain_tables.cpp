@@ -48,23 +48,24 @@ void read_model_coefficients(KeyReader& keys, bool given, LensParameters& lens) 
 
 struct FieldKey {
   const char* name;
+  const char* with_unit;
   float FieldDimensions::*member;
   bool required;
 };
 constexpr FieldKey field_keys[] = {
-    {"length", &FieldDimensions::length, true},
-    {"width", &FieldDimensions::width, true},
-    {"line_width", &FieldDimensions::line_width, true},
-    {"circle_radius", &FieldDimensions::circle_radius, true},
-    {"goal_area_depth", &FieldDimensions::goal_area_depth, false},
-    {"goal_area_width", &FieldDimensions::goal_area_width, false},
-    {"penalty_area_depth", &FieldDimensions::penalty_area_depth, false},
-    {"penalty_area_width", &FieldDimensions::penalty_area_width, false},
-    {"penalty_mark", &FieldDimensions::penalty_mark, false},
-    {"goal_width", &FieldDimensions::goal_width, true},
-    {"goal_height", &FieldDimensions::goal_height, true},
-    {"post_diameter", &FieldDimensions::post_diameter, true},
-    {"border", &FieldDimensions::border, true},
+    {"length", "length_m", &FieldDimensions::length, true},
+    {"width", "width_m", &FieldDimensions::width, true},
+    {"line_width", "line_width_m", &FieldDimensions::line_width, true},
+    {"circle_radius", "circle_radius_m", &FieldDimensions::circle_radius, true},
+    {"goal_area_depth", "goal_area_depth_m", &FieldDimensions::goal_area_depth, false},
+    {"goal_area_width", "goal_area_width_m", &FieldDimensions::goal_area_width, false},
+    {"penalty_area_depth", "penalty_area_depth_m", &FieldDimensions::penalty_area_depth, false},
+    {"penalty_area_width", "penalty_area_width_m", &FieldDimensions::penalty_area_width, false},
+    {"penalty_mark", "penalty_mark_m", &FieldDimensions::penalty_mark, false},
+    {"goal_width", "goal_width_m", &FieldDimensions::goal_width, true},
+    {"goal_height", "goal_height_m", &FieldDimensions::goal_height, true},
+    {"post_diameter", "post_diameter_m", &FieldDimensions::post_diameter, true},
+    {"border", "border_m", &FieldDimensions::border, true},
 };
 
 NamedField preset(const KeyReader& keys, const char* key, const std::string& name) {
@@ -73,18 +74,28 @@ NamedField preset(const KeyReader& keys, const char* key, const std::string& nam
   return {name, *dimensions};
 }
 
-void check_field(const FieldDimensions& dimensions, const KeyReader& keys) {
+/// The name that the table has for a key of the field.
+const char* name_in(KeyReader& keys, std::string_view key) {
+  for (const auto& known : field_keys) {
+    if (key == known.name) return keys.either(known.with_unit, known.name);
+  }
+  return field_keys[0].name;
+}
+
+void check_field(const FieldDimensions& dimensions, KeyReader& keys) {
   const char* what = nullptr;
   Field checked;
   if (Field::create(dimensions, checked, &what) != Status::ok) {
-    keys.fail(what != nullptr ? what : "length", "does not fit the rest of the field; check it against the rule book");
+    keys.fail(name_in(keys, what != nullptr ? what : ""),
+              "does not fit the rest of the field; check it against the rule book");
   }
 }
 
 }  // namespace
 
 void expect_lens_keys(KeyReader& keys) {
-  keys.expect({"model", "focal_px", "cx", "cy", "max_theta_deg", "alpha", "a", "b", "k1", "k2", "k3", "k4"});
+  keys.expect(
+      {"model", "focal_px", "cx", "cy", "cx_px", "cy_px", "max_theta_deg", "alpha", "a", "b", "k1", "k2", "k3", "k4"});
 }
 
 void read_lens(KeyReader& keys, bool complete, LensParameters& lens) {
@@ -98,8 +109,8 @@ void read_lens(KeyReader& keys, bool complete, LensParameters& lens) {
   lens.focal_px =
       as_float(keys.number("focal_px", {1.0, 1e5, "give the focal length in camera pixels"}, fallback(lens.focal_px)));
   const NumberRange centre{-1e4, 1e4, "give the principal point in camera pixels"};
-  lens.cx = as_float(keys.number("cx", centre, static_cast<double>(lens.cx)));
-  lens.cy = as_float(keys.number("cy", centre, static_cast<double>(lens.cy)));
+  lens.cx = as_float(keys.number(keys.either("cx_px", "cx"), centre, static_cast<double>(lens.cx)));
+  lens.cy = as_float(keys.number(keys.either("cy_px", "cy"), centre, static_cast<double>(lens.cy)));
   const NumberRange view{1.0, 180.0, "give the angle from the optical axis that the lens sees, in degrees"};
   const double max_theta_deg = keys.number("max_theta_deg", view, fallback(0.0F));
   if (max_theta_deg > 0.0) lens.max_theta = as_radians(max_theta_deg);
@@ -141,7 +152,7 @@ NamedField read_field(KeyReader& top, const std::optional<NamedField>& fallback,
   }
   KeyReader keys = top.inner("field");
   keys.expect({"preset"});
-  for (const auto& key : field_keys) keys.expect({key.name});
+  for (const auto& key : field_keys) keys.expect({key.name, key.with_unit});
   if (notes != nullptr) notes->add(keys);
   std::optional<NamedField> base = fallback;
   const std::string name = keys.text("preset", "");
@@ -151,7 +162,7 @@ NamedField read_field(KeyReader& top, const std::optional<NamedField>& fallback,
   for (const auto& key : field_keys) {
     float& length = field.dimensions.*key.member;
     const bool optional = base || !key.required;
-    const double read = keys.number(key.name, metres,
+    const double read = keys.number(keys.either(key.with_unit, key.name), metres,
                                     optional ? std::optional(base ? static_cast<double>(length) : 0.0) : std::nullopt);
     if (as_float(read) != length) field.name = "free";
     length = as_float(read);

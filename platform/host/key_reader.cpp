@@ -93,6 +93,12 @@ const nlohmann::json* KeyReader::find(const char* key) {
 
 bool KeyReader::has(const char* key) { return find(key) != nullptr; }
 
+const char* KeyReader::either(const char* with_unit, const char* plain) {
+  if (!table_->contains(plain)) return with_unit;
+  if (has(with_unit)) fail(with_unit, std::string("says the same as ") + plain + "; give one of them");
+  return plain;
+}
+
 double KeyReader::checked(const char* key, const nlohmann::json& value, const NumberRange& range) const {
   const std::string limits = in_words(range.low) + " to " + in_words(range.high);
   const std::string remedy = range.remedy != nullptr ? range.remedy : "write a number from " + limits;

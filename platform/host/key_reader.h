@@ -51,6 +51,8 @@ class KeyReader {
   KeyReader(const nlohmann::json& table, Place place, std::string name, KeyLog* log = nullptr);
 
   bool has(const char* key);
+  /// Of two names for one value, `plain` where the table has it, else `with_unit`; an error where it has both.
+  const char* either(const char* with_unit, const char* plain);
   /// All below throw HostError for another type, a number that is not finite or out of range; and for a missing key
   /// where there is no fallback.
   double number(const char* key, const NumberRange& range, std::optional<double> fallback = std::nullopt);

@@ -148,7 +148,20 @@ TEST_CASE("impossible values are told with the range") {
   CHECK(contains(error_of("[vision]\nbody_mask_px = [[1, 2, 3]]\n"), "polygon of 3 numbers"));
   CHECK(contains(error_of("[lens]\nmodel = \"fisheye\"\n"), "is not known; known are"));
   CHECK(contains(error_of("[lens]\nmodel = \"equidistance\"\n"), "did you mean equidistant?"));
+  CHECK(contains(error_of("[field]\nlength_m = 0.0\n"), ":2: [field] length_m: does not fit the rest of the field"));
   CHECK(contains(error_of("[field]\nlength = 0.0\n"), ":2: [field] length: does not fit the rest of the field"));
+  CHECK(contains(error_of("[field]\nwidth = 6.0\nwidth_m = 7.0\n"), ":3: [field] width_m: says the same as width"));
+  CHECK(contains(error_of("[lens]\ncx = 6.0\ncx_px = 7.0\n"), ":3: [lens] cx_px: says the same as cx"));
+}
+
+TEST_CASE("lengths are taken by the names of the robot's file and by those of a data set") {
+  const host::TempFolder temp;
+  const RobotFile own = read_robot_file(temp.write("own.toml", "[field]\nlength_m = 8.5\n[lens]\ncx_px = 311.0\n"));
+  const RobotFile set = read_robot_file(temp.write("set.toml", "[field]\nlength = 8.5\n[lens]\ncx = 311.0\n"));
+  CHECK(own.robot.field.length == 8.5F);
+  CHECK(set.robot.field.length == 8.5F);
+  CHECK(own.robot.lens.cx == 311.0F);
+  CHECK(set.robot.lens.cx == 311.0F);
 }
 
 TEST_CASE("what is no TOML, no file, or a folder is told") {
