@@ -80,4 +80,17 @@ bool on_centre_circle(const JunctionSearch& search, const GroundPoint& p) {
   return off < 1.5F * search.parameters.line_width_m + 2.0F * search.sight.metres_per_px(p, outwards);
 }
 
+bool on_half_line(const JunctionSearch& search, const GroundPoint& p, float direction) {
+  if (search.circle == nullptr || !search.circle->observation.has_half_line) return false;
+  const CircleObservation& circle = search.circle->observation;
+  const float x = circle.centre.x - p.x;
+  const float y = circle.centre.y - p.y;
+  const float c = math::cos(circle.half_line_direction);
+  const float s = math::sin(circle.half_line_direction);
+  const float across = math::abs(c * y - s * x);
+  const float aside = wrap_angle(circle.half_line_direction + math::half_pi);
+  if (across > 1.5F * search.parameters.line_width_m + 2.0F * search.sight.metres_per_px(p, aside)) return false;
+  return math::abs(angle_difference(math::atan2(y, x), direction)) < right_angle_tolerance;
+}
+
 }  // namespace touchline

@@ -71,5 +71,7 @@ void scan_for_branches(const JunctionSearch& search, const LineSegment& segment)
 void cut_circle(const JunctionSearch& search);
 /// On the centre circle or inside it, where the half line is alone.
 [[nodiscard]] bool on_centre_circle(const JunctionSearch& search, const GroundPoint& p);
+/// Outside the centre circle, on the half line, with the circle's centre in `direction`.
+[[nodiscard]] bool on_half_line(const JunctionSearch& search, const GroundPoint& p, float direction);
 
 }  // namespace touchline

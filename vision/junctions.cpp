@@ -19,6 +19,15 @@ constexpr float max_bridge_m = 1.5F;
 /// What leaves a crossing in a direction.
 enum class Way : std::uint8_t { line, carpet, hidden };
 
+/// Whether the ways at a junction, whose stem is the half line, can be those of a T: no line beyond the bar, and of the
+/// bar one half is seen and the other is no carpet.
+bool is_half_line_end(const Way* ways, int stem) {
+  const Way left = ways[(stem + 1) % 4];
+  const Way right = ways[(stem + 3) % 4];
+  if (ways[(stem + 2) % 4] == Way::line || left == Way::carpet || right == Way::carpet) return false;
+  return left == Way::line || right == Way::line;
+}
+
 class JunctionJudge {
  public:
   explicit JunctionJudge(const JunctionSearch& search) : search_(search) {}
@@ -28,6 +37,7 @@ class JunctionJudge {
  private:
   void merge(std::size_t best);
   void classify(const JunctionCandidate& c);
+  void accept_t(const JunctionCandidate& c, const float* directions, int gap, float quality) const;
   [[nodiscard]] Way way(const JunctionCandidate& c, float direction) const;
   [[nodiscard]] bool is_long(const JunctionCandidate& c, float direction) const;
   [[nodiscard]] bool is_middle(const JunctionCandidate& c, float direction) const;
@@ -136,6 +146,12 @@ bool JunctionJudge::is_middle(const JunctionCandidate& c, float direction) const
              .middle >= white_enough;
 }
 
+/// The stem is opposite the missing branch `gap`; counter-clockwise of it the bar.
+void JunctionJudge::accept_t(const JunctionCandidate& c, const float* directions, int gap, float quality) const {
+  const float ordered[3] = {directions[(gap + 2) % 4], directions[(gap + 3) % 4], directions[(gap + 1) % 4]};
+  accept_junction(search_, c, JunctionType::t, ordered, 3, quality);
+}
+
 /// Counts the four ways at right angles: X has four, T three, L two that are not opposite.
 void JunctionJudge::classify(const JunctionCandidate& c) {
   const CameraPose& pose = search_.rays.projection().pose();
@@ -150,8 +166,10 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
   bool thin[4] = {};  // a line, but beside the middle
   int lines = 0;
   bool hidden = false;
+  Way ways[4] = {};
   for (int i = 0; i < 4; ++i) {
     const Way w = way(c, directions[i]);
+    ways[i] = w;
     is_line[i] = w == Way::line;
     thin[i] = is_line[i] && !is_middle(c, directions[i]);
     lines += is_line[i] ? 1 : 0;
@@ -165,19 +183,23 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
     if (weak == 1) lines = 3;
   }
   if (lines < 2) return reject_junction(search_, c, lines, JunctionRejection::branch_too_short);
+  const float quality = 1.0F - 0.5F * math::min(c.off_angle / max_angle_tolerance, 1.0F);
+  // The half line ends at both touch lines: with the centre circle in view, a T there is known by its stem.
+  int stem = 0;
+  while (stem < 4 && !(is_line[stem] && on_half_line(search_, c.ground, directions[stem]))) ++stem;
+  const auto long_half = [&](int i) { return is_line[i % 4] && is_long(c, directions[i % 4]); };
+  if (hidden && stem < 4 && is_half_line_end(ways, stem) && (long_half(stem + 1) || long_half(stem + 3)))
+    return accept_t(c, directions, (stem + 2) % 4, quality);
   // Straight lines of a field never cross, so what is behind the bar of a T need not be seen.
   if (hidden && lines < 3) return reject_junction(search_, c, lines, JunctionRejection::at_border);
-  const float quality = 1.0F - 0.5F * math::min(c.off_angle / max_angle_tolerance, 1.0F);
   if (lines == 4) return accept_junction(search_, c, JunctionType::x, directions, 4, quality);
   if (lines == 3) {
     int gap = 0;
     while (is_line[gap]) ++gap;
-    // The stem is opposite the missing branch; counter-clockwise of it the bar.
     // With what is behind the bar hidden, a foot on a line could be the stem, were it long enough.
     if (hidden && !is_long(c, directions[(gap + 2) % 4]))
       return reject_junction(search_, c, lines, JunctionRejection::at_border);
-    const float ordered[3] = {directions[(gap + 2) % 4], directions[(gap + 3) % 4], directions[(gap + 1) % 4]};
-    return accept_junction(search_, c, JunctionType::t, ordered, 3, quality);
+    return accept_t(c, directions, gap, quality);
   }
   for (int i = 0; i < 4; ++i) {
     if (!is_line[i] || !is_line[(i + 1) % 4]) continue;

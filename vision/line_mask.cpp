@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/morphology.h"
 #include "vision/image/vector_registers.h"
 #include "vision/image/word_lanes.h"
 
@@ -145,6 +146,14 @@ void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, Bi
     // The next step looks at fewer rows yet: where this one found nothing, it finds nothing.
     if (!any || added == 0) return;
   }
+}
+
+void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch) {
+  copy(lines, scratch);
+  dilate(lines, dilate_px);
+  erode(lines, erode_px);
+  and_not_with(lines, carpet);
+  or_with(lines, scratch);
 }
 
 }  // namespace touchline

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From candidates to the line mask, beside the paper's dilation and erosion: what belongs to a line and was not found,
+// From candidates to the line mask, with the paper's dilation and erosion: what belongs to a line and was not found,
 // and what was found and does not belong to it.
 #pragma once
 
@@ -16,5 +16,10 @@ void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitVi
 /// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line,
 /// and the rest of a line that the picture's border cuts. `scratch` has the same size.
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch);
+
+/// The paper's dilation and erosion (section IV-C), sides in pixels: joins both edges of a line and closes its breaks.
+/// What they add and has the carpet's colour is taken out again: two lines that meet at a sharp angle, or run a pixel
+/// apart, stay two up to where no carpet is seen between them. `scratch` has the same size.
+void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch);
 
 }  // namespace touchline

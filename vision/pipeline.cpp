@@ -248,8 +248,8 @@ void Pipeline::make_line_mask(VisionResult& result) {
   and_with(white, views_.mask(MaskId::roi));
   grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
   trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch));
-  dilate(lines, scaled(config_.line_dilate_px));
-  erode(lines, scaled(config_.line_erode_px));
+  close_lines(views_.mask(MaskId::green), scaled(config_.line_dilate_px), scaled(config_.line_erode_px), lines,
+              views_.mask(MaskId::scratch));
   and_with(lines, views_.mask(MaskId::roi));
   find_post_colour(result);
   if (!config_.white_posts) and_not_with(lines, views_.mask(MaskId::post_colour));

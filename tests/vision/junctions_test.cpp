@@ -17,9 +17,10 @@ float off(float direction, float degrees_expected) {
   return math::abs(angle_difference(direction, radians(degrees_expected)));
 }
 
-/// Takes the carpet away where `hidden` says so, as an obstacle would, and judges the junctions again.
+/// Takes the carpet away where `hidden` says so, as an obstacle would, and judges the junctions again, with the centre
+/// circle where its radius is given.
 template <typename Hidden>
-void hide(Seen& seen, Hidden hidden) {
+void hide(Seen& seen, Hidden hidden, float circle_radius = 0.0F) {
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
       GroundPoint p;
@@ -29,8 +30,10 @@ void hide(Seen& seen, Hidden hidden) {
   }
   seen.features->junctions.clear();
   seen.features->rejections.clear();
-  (void)find_junctions(*seen.lines, nullptr, *seen.rays, {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}},
-                       {0.10F, 6.0F}, *seen.junction_work, *seen.features);
+  const SeenCircle circle{seen.features->circle, seen.circle_work.seen, circle_radius};
+  (void)find_junctions(*seen.lines, circle_radius > 0.0F ? &circle : nullptr, *seen.rays,
+                       {seen.mask.view(), seen.carpet.view(), seen.carpet.view(), {}}, {0.10F, 6.0F},
+                       *seen.junction_work, *seen.features);
 }
 
 }  // namespace
@@ -191,6 +194,27 @@ TEST_CASE("a line behind a post goes on: the T beside it has its bar") {
   const Junction* t = seen.nearest(JunctionType::t, {1.2F, 0.1F});
   REQUIRE(t != nullptr);
   CHECK(seen.pixels_off(*t, {1.2F, 0.1F}) < close_px);
+}
+
+TEST_CASE("the half line ends in a T, also where half of the bar is hidden; another line's end does not") {
+  Scene scene;
+  scene.circles = {{{1.2F, 0.0F}, 0.5F}};
+  scene.lines = {{{1.2F, -1.4F}, {1.2F, 1.4F}}, {{0.3F, 1.4F}, {1.25F, 1.4F}}};
+  const auto behind_robot = [](const GroundPoint& p) { return p.x > 1.26F && p.y > 1.1F; };
+  Seen seen(scene, 0.5F);
+  REQUIRE(seen.features->has_circle);
+  REQUIRE(seen.features->circle.has_half_line);
+  hide(seen, behind_robot, 0.5F);
+  const Junction* t = seen.nearest(JunctionType::t, {1.2F, 1.4F});
+  REQUIRE(t != nullptr);
+  CHECK(seen.pixels_off(*t, {1.2F, 1.4F}) < close_px);
+  CHECK(off(t->direction[0], 270.0F) < radians(8.0F));
+  CHECK(off(t->direction[1], 0.0F) < radians(8.0F));
+  hide(seen, behind_robot);  // with no circle it may be a corner as well
+  CHECK(seen.nearest(JunctionType::t, {1.2F, 1.4F}) == nullptr);
+  seen.features->circle.half_line_direction = 0.0F;  // nor is it the half line's end, when that runs elsewhere
+  hide(seen, behind_robot, 0.5F);
+  CHECK(seen.nearest(JunctionType::t, {1.2F, 1.4F}) == nullptr);
 }
 
 }  // namespace touchline
