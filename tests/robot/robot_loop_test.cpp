@@ -48,6 +48,21 @@ TEST_CASE("the yaw is used once the short press has stored the goal's") {
   CHECK(robot.report.yaw_used);
 }
 
+TEST_CASE("a press without a yaw stores nothing") {
+  TestRobot robot;
+  RobotConfig config = scene().config;
+  config.goal_yaw_known = false;
+  RobotLoop loop({&robot.camera, &robot.imu, &robot.gait, &robot.panel, &robot.clock}, robot.storage->memory(),
+                 *robot.localizer);
+  REQUIRE(loop.configure(config) == Status::ok);
+  robot.imu.mode = TestImu::Mode::missing;
+  robot.panel.presses.add({robot.clock.now(), ButtonPress::short_press});
+  for (const MonotonicNs end = robot.clock.now() + second; robot.clock.now() < end;) (void)loop.turn(robot.report);
+  CHECK(robot.panel.health().open);
+  CHECK_FALSE(loop.goal_yaw_known());
+  CHECK(loop.goal_yaw_presses() == 0);
+}
+
 TEST_CASE("the goal's yaw can be told as the device reads it, through a new zero of the device") {
   TestRobot robot;
   robot.imu.yaw = 0.75F;

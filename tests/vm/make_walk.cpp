@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
        << "\nmax_theta_deg = " << degrees(lens.max_theta)
        << "\n[mount]\nheight_m = 0.58\npitch_deg = 30\n[imu]\nbackend = \"hidapi\"\ndevice = \"1209:0001\"\n"
        << "[gait]\nbackend = \"serial\"\ndevice = \"/dev/gait-robot\"\n"
-       << "[panel]\nbackend = \"gpiod\"\nchip = \"cp2112_gpio\"\nbutton_line = 2\nled_line = 5\n"
-       << "[realtime]\nlock_memory = true\n";
+       << "[realtime]\nlock_memory = true\n"  // the panel's table last: the tests add to it
+       << "[panel]\nbackend = \"gpiod\"\nchip = \"cp2112_gpio\"\nbutton_line = 2\nled_line = 5\n";
   return 0;
 }

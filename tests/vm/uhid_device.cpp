@@ -101,7 +101,7 @@ UhidImu::UhidImu()
               {0x06, 0x00, 0xFF, 0x09, 0x01, 0xA1, 0x01, 0x85, 0x01, 0x15, 0x00, 0x26,
                0xFF, 0x00, 0x75, 0x08, 0x95, 0x0F, 0x09, 0x01, 0x81, 0x02, 0xC0}) {}
 
-void UhidImu::send(float yaw) {
+void UhidImu::send(float yaw, bool garbled) {
   UhidDevice::Bytes report(16, 0);
   const auto raw = static_cast<std::uint16_t>(static_cast<int>(wrap_angle(yaw) * 1e4F));
   report[0] = 1;
@@ -111,6 +111,7 @@ void UhidImu::send(float yaw) {
   report[10] = 1;
   const std::uint32_t crc = crc32(std::span(report).first(12));
   for (std::size_t i = 0; i < 4; ++i) report[12 + i] = static_cast<std::uint8_t>(crc >> (8 * i));
+  if (garbled) report[12] ^= 0xFF;
   device_.send(report);
 }
 

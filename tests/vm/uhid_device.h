@@ -49,7 +49,8 @@ class UhidImu {
   UhidImu();
   bool plug_in() { return device_.plug_in(); }
   void unplug() { device_.unplug(); }
-  void send(float yaw);
+  /// `garbled`: with a wrong checksum.
+  void send(float yaw, bool garbled = false);
 
  private:
   UhidDevice device_;

@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$(realpath -m "${1:-build}")
 architecture=${2:-amd64}
-seconds=${VM_WALK_SECONDS:-60}
+seconds=${VM_WALK_SECONDS:-60}  # VM_PARTS=backends,robot,faults: some of them only
 . platform/sbc/foreign_apt.sh
 skip() { echo "skipped: $1"; exit 77; }
 work=$build/vm
@@ -62,6 +62,9 @@ if [ ! -f "$work/kernel/boot/vmlinuz-$version" ]; then
   echo "$package" >"$work/kernel/package"
 fi
 
+launcher=()
+command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
+
 # What the guest runs, its root and its busybox.
 share=$work/share
 mkdir -p "$share"
@@ -77,20 +80,33 @@ else
   mkdir -p "$root"/{proc,sys,dev,tmp,share}
   for applet in sh sleep insmod rmmod rm cat ls mkdir; do ln -sf busybox "$root/bin/$applet"; done
   programs=$work/build
-  launcher=()
-  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
   cmake -S . -B "$programs" -G Ninja --toolchain "$PWD/platform/sbc/arm64.cmake" "-DTOUCHLINE_SYSROOT=$work/sysroot" \
     "${launcher[@]}" >"$work/build.log" 2>&1 || { cat "$work/build.log"; exit 1; }
 fi
-guest_programs=(tests/vm/vm_backends tests/vm/vm_robot platform/host/touchline)
+guest_programs=(tests/vm/vm_backends tests/vm/vm_robot tests/vm/vm_faults platform/host/touchline)
 cmake --build "$programs" --target "${guest_programs[@]##*/}" >"$work/build.log" 2>&1 || { tail -30 "$work/build.log"; exit 1; }
-if [ ! -f "$share/walk-$seconds" ]; then
+if [ ! "$share/walk-$seconds" -nt "$build/tests/vm/make_walk" ]; then
   rm -f "$share"/walk*
   "$build/tests/vm/make_walk" "$share" "$seconds"
   touch "$share/walk-$seconds"
 fi
 cp tests/vm/guest.sh "${guest_programs[@]/#/$programs/}" "$share/"
 [ "$guest_share" = "$share" ] || cp "$share"/* "$root$guest_share/"
+
+# The panel once more, on libgpiod 2 of Debian 13: its library runs on Debian 12, too.
+rm -f "$share/vm_backends_gpiod2"
+if [ "$architecture" = amd64 ]; then
+  gpiod2=$work/gpiod2/usr
+  if [ -f "$gpiod2/include/gpiod.h" ] || { foreign_apt_start amd64 trixie >/dev/null 2>&1 &&
+    foreign_apt_get "$work/gpiod2" libgpiod-dev libgpiod3 >/dev/null 2>&1; }; then
+    { cmake -S . -B "$work/gpiod2-build" -G Ninja "-DGPIOD_INCLUDE_DIR=$gpiod2/include" \
+        "-DGPIOD_LIBRARY=$gpiod2/lib/x86_64-linux-gnu/libgpiod.so.3" "${launcher[@]}" &&
+      cmake --build "$work/gpiod2-build" --target vm_backends; } >"$work/build.log" 2>&1 || { tail -30 "$work/build.log"; exit 1; }
+    cp "$work/gpiod2-build/tests/vm/vm_backends" "$share/vm_backends_gpiod2"
+  else
+    echo "skipped: the panel on libgpiod 2 (Debian 13's packages cannot be had)"
+  fi
+fi
 
 # The initramfs: busybox, and the modules in the order of their dependencies.
 tree=$work/initramfs
@@ -118,13 +134,13 @@ else
 fi
 timeout -k 5 $limit "${machine[@]}" -accel tcg -m 512 -nodefaults -display none -no-reboot \
   -kernel "$work/kernel/boot/vmlinuz-$version" -initrd "$work/initramfs.gz" \
-  -append "console=$console quiet panic=-1 share=$guest_share gait=${serial_ports[0]} robot=${serial_ports[1]} limit=$((limit - 100))" \
+  -append "console=$console quiet panic=-1 share=$guest_share gait=${serial_ports[0]} robot=${serial_ports[1]} parts=${VM_PARTS:-backends,robot,faults} limit=$((limit - 100))" \
   "${ports[@]}" \
   -virtfs "local,path=$root,mount_tag=host,security_model=none,readonly=on,multidevs=remap" \
   -virtfs "local,path=$work/out,mount_tag=out,security_model=none" \
   </dev/null 2>&1 | tr -d '\r' >"$work/guest.log" || true
 head -20 "$work/out/log" 2>/dev/null || true
-grep -aE '^(PASS|FAIL|robot:|loop:|imu:|gait:|faults:|module)' "$work/guest.log" || true
+grep -aE '^(PASS|FAIL|robot:|loop:|imu:|gait:|gpiod|module)' "$work/guest.log" || true
 if grep -aq '^TOUCHLINE-VM-EXIT:0$' "$work/guest.log"; then
   echo "vmtest: passed on $architecture, kernel $version ($(grep -ac '^PASS' "$work/guest.log") checks)"
 else
