@@ -65,7 +65,8 @@ inline float DistanceField::distance_inline(const FieldPoint& p, LineAxis axis) 
   const int row = static_cast<int>(v);
   const float right = u - static_cast<float>(column);
   const float down = v - static_cast<float>(row);
-  const std::uint8_t* node = layers_[axis == LineAxis::x ? 0 : 1].data() + (row * columns_ + column);
+  const std::uint8_t* layer = axis == LineAxis::x ? layers_[0].data() : layers_[1].data();
+  const std::uint8_t* node = layer + (row * columns_ + column);
   const float a = static_cast<float>(node[0]);
   const float b = static_cast<float>(node[1]);
   const float c = static_cast<float>(node[columns_]);

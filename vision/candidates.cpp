@@ -2,7 +2,6 @@
 #include "vision/candidates.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/morphology.h"
@@ -214,9 +213,8 @@ int add_line_edges(const EdgeInput& input, BitView lines, std::array<int, candid
   const int words = words_for(input.edges.width);
   for (int y = 0; y < input.edges.height; ++y) {
     for (int i = 0; i < words; ++i) {
-      for (BitWord left = undecided(input, y, i, without_green, without_white); left != 0; left &= left - 1) {
-        look(i * bits_per_word + std::countr_zero(left), y);
-      }
+      for_each_bit(undecided(input, y, i, without_green, without_white),
+                   [&](int bit) { look(i * bits_per_word + bit, y); });
     }
   }
   return taken;

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cassert>
+#include "vision/image/bit_ops.h"
 
 namespace touchline {
 namespace {
@@ -46,9 +47,7 @@ class LiveNodes {
       for (int w = x0 / tile_px / bits_per_word; w <= tx1 / bits_per_word; ++w) {
         BitWord row = rows_[static_cast<std::size_t>(ty * words_a_row_ + w)];
         row &= between(x0 / tile_px - w * bits_per_word, tx1 - w * bits_per_word);
-        for (; row != 0; row &= row - 1) {
-          visit_tile(w * bits_per_word + std::countr_zero(row), ty, centre, radius, visit);
-        }
+        for_each_bit(row, [&](int bit) { visit_tile(w * bits_per_word + bit, ty, centre, radius, visit); });
       }
     }
   }
@@ -56,15 +55,13 @@ class LiveNodes {
  private:
   template <typename Visit>
   void visit_tile(int tx, int ty, GridPoint centre, int radius, Visit& visit) const {
-    BitWord live = tiles_[static_cast<std::size_t>(ty * tiles_a_row_ + tx)];
-    for (; live != 0; live &= live - 1) {
-      const int b = std::countr_zero(live);
+    for_each_bit(tiles_[static_cast<std::size_t>(ty * tiles_a_row_ + tx)], [&](int b) {
       const int x = tx * tile_px + b % tile_px;
       const int y = ty * tile_px + b / tile_px;
       const int dx = x - centre.x;
       const int dy = y - centre.y;
       if (dx * dx + dy * dy <= radius * radius) visit(x, y);
-    }
+    });
   }
   static int min_of(int a, int b) { return b < a ? b : a; }
   /// Bits first..last of a word; what lies outside the word is left out.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/hsv.h"
@@ -41,11 +40,10 @@ void for_each_sample(const ConstYuv420View& image, ConstBitView mask, ConstBitVi
     const std::uint8_t* cr = image.cr.row(y);
     for (int i = 0; i < words; ++i) {
       const BitWord inner = around.row(2 * y)[i] << 1 & around.row(2 * y)[i] >> 1;
-      for (BitWord left = mask.row(2 * y)[i] & every_fourth; left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
+      for_each_bit(mask.row(2 * y)[i] & every_fourth, [&](int bit) {
         const int x = i * bits_per_word + bit;
         visit(Sample{luma[x], cb[x / 2] - 128, cr[x / 2] - 128, x, 2 * y, ((inner >> bit) & 1U) != 0});
-      }
+      });
     }
   }
 }
@@ -164,7 +162,9 @@ void find_white(const ConstYuv420View& image, ConstBitView ground, const CarpetM
   limits.axis_cb = carpet.axis_cb;
   limits.axis_cr = carpet.axis_cr;
   limits.shadow_luma = carpet.shadow_luma;
-  for_band_rows(image, ground, white, [&](const BandRows& rows) { kernels.white_rows(limits, rows); });
+  BandMemo memo;
+  memo.clear();
+  for_band_rows(image, ground, white, memo, [&](const BandRows& rows) { kernels.white_rows(limits, rows); });
 }
 
 }  // namespace touchline

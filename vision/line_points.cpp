@@ -25,31 +25,47 @@ struct Vec2 {
 struct Moments {
   std::int32_t n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
 };
-/// Bits first .. first + n - 1 of a row, n <= 32; bits outside the image are zero.
-std::uint32_t bits_of_row(ConstBitView mask, int y, int first, int n) {
-  constexpr int half = 32;  // of a word: what a register of a small processor takes
-  const auto* bytes = reinterpret_cast<const unsigned char*>(mask.row(y));
-  const int from = std::max(first, 0);
-  if (from >= mask.width) return 0;
-  const auto half_at = [bytes](int index) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, bytes + 4 * index, sizeof bits);
-    return bits;
-  };
-  const int index = from / half;
-  const int shift = from % half;
-  std::uint32_t bits = half_at(index) >> shift;
-  if (shift != 0 && half * (index + 1) < mask.width) bits |= half_at(index + 1) << (half - shift);
-  bits <<= from - first;
-  return bits & (~std::uint32_t{0} >> (half - n));
-}
+/// A window of up to 32 columns of a mask; bits outside the image are zero. A word of 32 bits is what a register of a
+/// small processor takes.
+class BitWindow {
+ public:
+  BitWindow(ConstBitView mask, int first, int n) : mask_(mask) {
+    const int from = std::max(first, 0);
+    left_ = from / 32 * 4;
+    right_ = from / 32 * 32 + 32 < mask.width ? left_ + 4 : left_;
+    inside_left_ = from < mask.width ? ~std::uint32_t{0} : 0;
+    inside_right_ = right_ != left_ && from % 32 != 0 ? ~std::uint32_t{0} : 0;
+    if (inside_left_ == 0) left_ = right_ = 0;
+    down_ = from % 32;
+    up_ = (32 - down_) % 32;
+    before_ = from - first;
+    window_ = ~std::uint32_t{0} >> (32 - n);
+  }
+  [[nodiscard]] std::uint32_t row(int y) const {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(mask_.row(y));
+    const std::uint32_t left = load(bytes + left_) & inside_left_;
+    const std::uint32_t right = load(bytes + right_) & inside_right_;
+    return ((left >> down_ | right << up_) << before_) & window_;
+  }
+
+ private:
+  static std::uint32_t load(const unsigned char* from) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, from, sizeof word);
+    return word;
+  }
+  ConstBitView mask_;
+  int left_, right_;  // bytes
+  std::uint32_t inside_left_, inside_right_, window_;
+  int down_, up_, before_;
+};
 
 Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
   Moments m;
+  const BitWindow window(skeleton, at.x - radius, 2 * radius + 1);
   for (int dy = std::max(-radius, -at.y); dy <= std::min(radius, skeleton.height - 1 - at.y); ++dy) {
     std::int32_t n = 0, x = 0;
-    for (std::uint32_t left = bits_of_row(skeleton, at.y + dy, at.x - radius, 2 * radius + 1); left != 0;
-         left &= left - 1) {
+    for (std::uint32_t left = window.row(at.y + dy); left != 0; left &= left - 1) {
       const int dx = std::countr_zero(left) - radius;
       ++n;
       x += dx;

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "vision/image/vector_registers.h"
-
 namespace touchline {
 namespace {
 

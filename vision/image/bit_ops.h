@@ -7,6 +7,7 @@
 #include <span>
 
 #include "vision/image/bit_image.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 
@@ -58,6 +59,19 @@ struct SubpixelPoint {
 inline constexpr std::size_t max_polygon_points = 32;  // an outline drawn by hand in a configuration file
 std::size_t fill_polygon(BitView mask, std::span<const SubpixelPoint> polygon, bool value);
 
+/// Calls visit(bit) for every set bit, the lowest first.
+template <typename Visit>
+void for_each_bit(BitWord word, Visit visit) {
+  if constexpr (vector_registers) {
+    for (BitWord left = word; left != 0; left &= left - 1) visit(std::countr_zero(left));
+  } else {  // a register of a small processor at a time
+    for (auto left = static_cast<std::uint32_t>(word); left != 0; left &= left - 1) visit(std::countr_zero(left));
+    for (auto left = static_cast<std::uint32_t>(word >> 32U); left != 0; left &= left - 1) {
+      visit(32 + std::countr_zero(left));
+    }
+  }
+}
+
 /// Calls visit(x, y) for every set pixel, rows from the top, each from the left.
 template <typename Visit>
 void for_each_set_bit(ConstBitView mask, Visit visit) {
@@ -65,7 +79,7 @@ void for_each_set_bit(ConstBitView mask, Visit visit) {
   for (int y = 0; y < mask.height; ++y) {
     const BitWord* row = mask.row(y);
     for (int i = 0; i < words; ++i) {
-      for (BitWord left = row[i]; left != 0; left &= left - 1) visit(i * bits_per_word + std::countr_zero(left), y);
+      for_each_bit(row[i], [&](int bit) { visit(i * bits_per_word + bit, y); });
     }
   }
 }

@@ -192,9 +192,18 @@ void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks block
   repeat_ends(rows.column_sums(), width);
   repeat_ends(rows.column_steps(), width);
   for (int i = 0; i < words_for(width); ++i) {
-    if (near_region(roi, y, i) == 0) continue;
+    const BitWord near = near_region(roi, y, i);
+    if (near == 0) continue;
+    // Half by half, each with one column of the other.
     const int x0 = i * bits_per_word;
-    candidates.row(y)[i] = roi.row(y)[i] & Loops::slopes(slopes, x0, std::min(x0 + bits_per_word, width), threshold);
+    const int end = std::min(x0 + bits_per_word, width);
+    const int half = std::min(x0 + block_px, width);
+    BitWord bits = 0;
+    if (near << (block_px - 1) != 0) bits = Loops::slopes(slopes, x0, half, threshold);
+    if (near >> (block_px - 1) != 0 && half < end) {
+      bits |= Loops::slopes(slopes, half, end, threshold) << block_px;
+    }
+    candidates.row(y)[i] = roi.row(y)[i] & bits;
   }
 }
 

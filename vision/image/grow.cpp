@@ -11,6 +11,10 @@ namespace {
 /// become zero there. `carry` brings the fill over from the word before and takes it to the next.
 BitWord fill_right(BitWord seeds, BitWord mask, BitWord& carry) {
   const BitWord start = seeds | (mask & carry);
+  if (start == 0) {
+    carry = 0;
+    return 0;
+  }
   const BitWord sum = mask + start;
   carry = sum < mask ? 1 : 0;
   return start | (mask & ~sum);

@@ -106,7 +106,9 @@ LumaBand HsvFilter::luma_range(std::uint8_t cb, std::uint8_t cr) const { return 
 void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBitView region, BitView out,
                   const Kernels& kernels) {
   const HsvFilter filter(range);
-  for_band_rows(picture, region, out, [&](const BandRows& rows) { kernels.hsv_rows(filter.plan(), rows); });
+  BandMemo memo;
+  memo.clear();
+  for_band_rows(picture, region, out, memo, [&](const BandRows& rows) { kernels.hsv_rows(filter.plan(), rows); });
 }
 
 }  // namespace touchline

@@ -58,7 +58,7 @@ void hsv_in_range(const ConstYuv420View& picture, const HsvRange& range, ConstBi
 
 /// Calls rows(BandRows) for each row of chroma and the one or two of luma that it belongs to.
 template <typename Rows>
-void for_band_rows(const ConstYuv420View& picture, ConstBitView region, BitView out, Rows rows) {
+void for_band_rows(const ConstYuv420View& picture, ConstBitView region, BitView out, BandMemo& memo, Rows rows) {
   assert(picture.y.width == out.width && picture.y.height == out.height && region.width == out.width);
   for (int y = 0; y < out.height; y += 2) {
     const int below = std::min(y + 1, out.height - 1);
@@ -72,6 +72,7 @@ void for_band_rows(const ConstYuv420View& picture, ConstBitView region, BitView 
     two.out[0] = out.row(y);
     two.out[1] = out.row(below);
     two.width = out.width;
+    two.memo = &memo;
     rows(two);
   }
 }

@@ -38,6 +38,23 @@ struct CarpetLimits {
   std::int32_t shadow_luma = 0;
 };
 
+/// What was found out about chroma samples, for processors whose every instruction counts: a field has few colours.
+struct BandMemo {
+  static constexpr std::uint32_t slots = 512;
+  static constexpr std::uint32_t nobody = ~std::uint32_t{0};
+  struct Entry {
+    std::uint32_t sample;  // cb + 256 cr
+    std::uint32_t band;
+  };
+  Entry entries[slots];
+
+  void clear() {
+    for (Entry& entry : entries) entry.sample = nobody;
+  }
+  /// Neighbouring colours have different slots.
+  static std::uint32_t slot_of(std::uint32_t sample) { return (sample + (sample >> 4U)) % slots; }
+};
+
 /// Two rows of luma that share a row of chroma, and their rows of masks. At an odd bottom both are the same row.
 struct BandRows {
   const std::uint8_t* cb = nullptr;  // (width + 1) / 2
@@ -46,6 +63,7 @@ struct BandRows {
   const std::uint64_t* region[2] = {};
   std::uint64_t* out[2] = {};  // set to the pixels of the region whose luma lies in the band
   int width = 0;
+  BandMemo* memo = nullptr;  // of one plan, cleared before its first rows; never null
 };
 
 }  // namespace touchline

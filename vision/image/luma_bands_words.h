@@ -15,9 +15,9 @@ inline constexpr std::uint32_t tops = 0x80008000U;
 inline constexpr std::uint16_t top = 0x8000U;
 inline constexpr int half_px = 32;  // pixels, a bit each, that one register takes
 
+/// Of each chroma sample 0x8000 - low in the lower half, and 0x8000 + high in the upper one.
 struct Bands {
-  std::uint16_t from[bands::word_samples];  // 0x8000 - low
-  std::uint16_t to[bands::word_samples];    // 0x8000 + high
+  std::uint32_t band[bands::word_samples];
 };
 
 inline std::uint32_t load_word(const void* from) {
@@ -27,14 +27,11 @@ inline std::uint32_t load_word(const void* from) {
 }
 
 /// One chroma sample whose hue is in the range.
-template <bool Narrow>
 inline LumaBand coloured_band(const HsvBandPlan& f, std::int32_t b, std::int32_t r) {
   const bands::Offsets o = bands::offsets(b, r);
   const std::int32_t largest = bands::most(bands::most(o.red, o.green), o.blue);
   const std::int32_t chroma = largest - bands::least(bands::least(o.red, o.green), o.blue);
-  if constexpr (!Narrow) {
-    if (chroma == 0) return f.neutral;
-  }
+  if (chroma == 0) return f.neutral;
   const std::int32_t value_offset = (largest + 128) >> bands::offset_bits;
   std::int32_t from = f.value_low == 0 ? 0 : bands::most(0, f.value_low - value_offset);
   std::int32_t to = f.value_high == 255 ? 255 : bands::least(255, f.value_high - value_offset);
@@ -50,37 +47,40 @@ inline LumaBand coloured_band(const HsvBandPlan& f, std::int32_t b, std::int32_t
   return {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to)};
 }
 
-/// Whether any of the samples leaves anything. What has another hue is left at once: `Narrow` says that the range takes
-/// less than half of the hues, and no gray.
-template <bool Narrow>
-inline bool hsv_samples(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr, int count, Bands& out) {
-  const std::int32_t from_gray = -128 * (f.from.a + f.from.b);
-  const std::int32_t to_gray = -128 * (f.to.a + f.to.b);
-  const ChromaHalfPlane first = f.from, last = f.to;
-  bool any = false;
-  for (int i = 0; i < count; ++i) {
-    // Below zero where the hue is at or past the first, and before the end of the last.
-    const std::int32_t past_first = ~(from_gray + first.a * cb[i] + first.b * cr[i]);
-    const std::int32_t before_last = to_gray + last.a * cb[i] + last.b * cr[i];
-    bool hue = (past_first & before_last) < 0;
-    if constexpr (!Narrow) hue = hue || f.any_hue || (f.wide && (past_first | before_last) < 0);
-    if (!hue && (Narrow || cb[i] != 128 || cr[i] != 128)) {
-      out.from[i] = top - 255;
-      out.to[i] = top;
-      continue;
-    }
-    const LumaBand band = coloured_band<Narrow>(f, cb[i] - 128, cr[i] - 128);
-    any = any || band.low <= band.high;
-    out.from[i] = static_cast<std::uint16_t>(top - band.low);
-    out.to[i] = static_cast<std::uint16_t>(top + band.high);
-  }
-  return any;
+/// The band of any chroma sample. What has another hue is left at once.
+inline constexpr std::uint32_t empty_band = (0x8000U - 255U) | 0x8000U << 16U;
+inline std::uint32_t band_of(const HsvBandPlan& f, std::int32_t b, std::int32_t r) {
+  const bool past_first = f.from.a * b + f.from.b * r >= 0;
+  const bool before_last = f.to.a * b + f.to.b * r < 0;
+  const bool hue = f.any_hue || (past_first && before_last) || (f.wide && (past_first || before_last));
+  if (!hue && (b != 0 || r != 0)) return empty_band;
+  const LumaBand band = coloured_band(f, b, r);
+  return band.low > band.high ? empty_band : (0x8000U - band.low) | (0x8000U + band.high) << 16U;
 }
 
-inline bool white_samples(const CarpetLimits& f, const std::uint8_t* cb, const std::uint8_t* cr, int count,
-                          Bands& out) {
+/// Whether any of the samples leaves anything.
+inline bool hsv_samples(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr, int count, Bands& out,
+                        BandMemo* memo) {
+  std::uint32_t any = 0;
   for (int i = 0; i < count; ++i) {
-    out.from[i] = static_cast<std::uint16_t>(top - bands::least_white(f, cb[i] - 128, cr[i] - 128));
+    const std::uint32_t sample = cb[i] | std::uint32_t{cr[i]} << 8U;
+    BandMemo::Entry& entry = memo->entries[BandMemo::slot_of(sample)];
+    if (entry.sample != sample) entry = {sample, band_of(f, cb[i] - 128, cr[i] - 128)};
+    out.band[i] = entry.band;
+    any |= entry.band;
+  }
+  return any != empty_band;  // a band with the same bits set is the empty one
+}
+
+inline bool white_samples(const CarpetLimits& f, const std::uint8_t* cb, const std::uint8_t* cr, int count, Bands& out,
+                          BandMemo* memo) {
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t sample = cb[i] | std::uint32_t{cr[i]} << 8U;
+    BandMemo::Entry& entry = memo->entries[BandMemo::slot_of(sample)];
+    if (entry.sample != sample) {
+      entry = {sample, static_cast<std::uint32_t>(top - bands::least_white(f, cb[i] - 128, cr[i] - 128))};
+    }
+    out.band[i] = entry.band;
   }
   return true;
 }
@@ -93,16 +93,17 @@ inline std::uint32_t four_bits(std::uint32_t even, std::uint32_t odd) {
 
 /// 32 pixels. `Bounded`: whether there is a largest luma, too.
 template <bool Bounded>
-inline std::uint32_t half_word(const std::uint8_t* y, const std::uint16_t* from, const std::uint16_t* to) {
+inline std::uint32_t half_word(const std::uint8_t* y, const std::uint32_t* band) {
   std::uint32_t bits = 0;
   for (int i = 0; i < half_px; i += 4) {
     const std::uint32_t luma = load_word(y + i);
-    const std::uint32_t low = load_word(from + i / 2);
+    const std::uint32_t left = band[i / 2], right = band[i / 2 + 1];
+    const std::uint32_t low = lower_halves(left, right);
     const std::uint32_t luma_02 = even_bytes(luma), luma_13 = odd_bytes(luma);
     std::uint32_t even = luma_02 + low;
     std::uint32_t odd = luma_13 + low;
     if constexpr (Bounded) {
-      const std::uint32_t high = load_word(to + i / 2);
+      const std::uint32_t high = upper_halves(left, right);
       even &= high - luma_02;
       odd &= high - luma_13;
     }
@@ -121,9 +122,9 @@ inline std::uint64_t whole_word(const std::uint8_t* y, int used, std::uint64_t w
     y = copy;
   }
   std::uint32_t low = 0, high = 0;
-  if ((wanted & 0xFFFFFFFFU) != 0) low = half_word<Bounded>(y, band.from, band.to);
+  if ((wanted & 0xFFFFFFFFU) != 0) low = half_word<Bounded>(y, band.band);
   if (wanted >> half_px != 0) {
-    high = half_word<Bounded>(y + half_px, band.from + half_px / 2, band.to + half_px / 2);
+    high = half_word<Bounded>(y + half_px, band.band + half_px / 2);
   }
   return (low | std::uint64_t{high} << half_px) & wanted;
 }
@@ -147,18 +148,15 @@ inline void in_rows(const BandRows& rows, Make make) {
 
 inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const HsvBandPlan f = plan;
-  const bool narrow = !f.wide && !f.any_hue && f.neutral.low > f.neutral.high;
   in_rows<true>(rows, [&](int first, int count, Bands& out) {
-    const std::uint8_t* cb = rows.cb + first;
-    const std::uint8_t* cr = rows.cr + first;
-    return narrow ? hsv_samples<true>(f, cb, cr, count, out) : hsv_samples<false>(f, cb, cr, count, out);
+    return hsv_samples(f, rows.cb + first, rows.cr + first, count, out, rows.memo);
   });
 }
 
 inline void white_rows(const CarpetLimits& limits, const BandRows& rows) {
   const CarpetLimits f = limits;
   in_rows<false>(rows, [&](int first, int count, Bands& out) {
-    return white_samples(f, rows.cb + first, rows.cr + first, count, out);
+    return white_samples(f, rows.cb + first, rows.cr + first, count, out, rows.memo);
   });
 }
 

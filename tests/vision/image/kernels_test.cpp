@@ -137,12 +137,15 @@ void check_white(const Kernels& kernels, int width) {
   if (width % 64 != 0) region.back() >>= 64 - width % 64;
   std::vector<std::uint64_t> upper(region.size()), lower(region.size());
   const CarpetLimits limits = {-200, -256, 500, 700, 40};
+  BandMemo memo;
+  memo.clear();
   kernels.white_rows(limits, {chroma.data(),
                               chroma.data() + samples,
                               {luma.data(), luma.data() + samples},
                               {region.data(), region.data()},
                               {upper.data(), lower.data()},
-                              width});
+                              width,
+                              &memo});
   for (int x = 0; x < width; ++x) {
     const auto at = static_cast<std::size_t>(x);
     const int cb = chroma[at / 2] - 128;
