@@ -33,7 +33,8 @@ struct BasicBitView {
     if (x < 0 || y < 0 || x >= width || y >= height) return false;
     // By the byte: words of 64 bits take small processors several steps to shift.
     const auto* bytes = reinterpret_cast<const unsigned char*>(row(y));
-    return ((bytes[static_cast<unsigned>(x) / 8U] >> (static_cast<unsigned>(x) % 8U)) & 1U) != 0;
+    const unsigned byte = bytes[static_cast<unsigned>(x) / 8U];
+    return ((byte >> (static_cast<unsigned>(x) % 8U)) & 1U) != 0;
   }
   void set(int x, int y, bool value) const requires(!std::is_const_v<W>) {
     assert(x >= 0 && x < width);
