@@ -8,7 +8,7 @@ NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo test check golden accept bench profile budget fuzz vmtest format install clean
+.PHONY: help build demo run test check golden accept bench profile budget fuzz vmtest format install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -27,6 +27,9 @@ build: $(BUILD)/CMakeCache.txt  ## the library, the command line and the tests
 
 demo: build  ## a simulated robot finds and follows its place; pictures go to demo/
 	@$(TOUCHLINE) demo --output demo
+
+run: build  ## the robot daemon on recorded devices: one JSON line per pose
+	@$(TOUCHLINE) run fixtures/robot-replay.toml
 
 test: build  ## all tests
 	@ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure
