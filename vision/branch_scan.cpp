@@ -12,6 +12,7 @@ constexpr int scan_knot_px = 8;      // the lens is asked this often
 constexpr int max_scan_knots = 64;   // a line across the largest working image
 constexpr float scan_beyond_px = 5.0F;
 constexpr float scan_beyond_widths = 1.0F;
+constexpr float least_inside = 0.4F;  // of the way beside a line: of a branch that the picture cuts off
 constexpr float stem_widths = 0.25F;  // 1 sigma of a branch's place; the mask fills its sharp corner
 constexpr float max_stem_widths = 2.2F;
 constexpr float max_stem_px = 4.0F;
@@ -96,21 +97,25 @@ bool BranchScan::make_fence(const GroundPoint& p, const GroundPoint& out, float 
          search_.rays.work_point({p.x + to * out.x, p.y + to * out.y}, 0.0F, fence.to);
 }
 
-/// How much of the way at the part `f` between two fences is white.
+/// How much of the way at the part `f` between two fences is white, as far as the picture goes.
 float BranchScan::white_part(const Fence& a, const Fence& b, float f) const {
   const auto between = [](float x, float y, float g) { return x + g * (y - x); };
   const float u0 = between(a.from.u, b.from.u, f), v0 = between(a.from.v, b.from.v, f);
   const float u1 = between(a.to.u, b.to.u, f), v1 = between(a.to.v, b.to.v, f);
   const float apart = math::max(math::abs(u1 - u0), math::abs(v1 - v0));
   const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
-  int white = 0;
-  for (int i = 0; i <= steps; ++i) {
+  int white = 0, inside = 0;
+  for (int i = 0; i <= steps; ++i, ++inside) {
     const float g = static_cast<float>(i) / static_cast<float>(steps);
     const float x = between(u0, u1, g);
     const float y = between(v0, v1, g);
-    white += x >= 0.0F && y >= 0.0F && search_.field.lines.get(static_cast<int>(x), static_cast<int>(y)) ? 1 : 0;
+    if (!(x >= 0.0F && y >= 0.0F)) break;
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    if (column >= search_.rays.work_width() || row >= search_.rays.work_height()) break;
+    white += search_.field.lines.get(column, row) ? 1 : 0;
   }
-  return static_cast<float>(white) / static_cast<float>(steps + 1);
+  const auto all = static_cast<float>(steps + 1);
+  return static_cast<float>(white) / math::max(static_cast<float>(inside), least_inside * all);
 }
 
 /// Two lines a few pixels apart melt here and there; a branch has carpet on both sides.

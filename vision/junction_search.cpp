@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/junction_search.h"
 
+#include "vision/junction_errors.h"
+
 namespace touchline {
-namespace {
-
-constexpr float sigma_px = 1.0F;             // camera pixels, of the lines' crossing
-constexpr float sigma_tilt = radians(0.5F);  // an IMU's error
-
-}  // namespace
 
 void reject_junction(const JunctionSearch& search, const JunctionCandidate& c, int branches, JunctionRejection reason) {
   RejectedJunction r;
@@ -24,7 +20,7 @@ void accept_junction(const JunctionSearch& search, const JunctionCandidate& c, J
     return reject_junction(search, c, count, JunctionRejection::no_ground);
   j.type = type;
   j.ground = c.ground;
-  j.covariance = search.rays.projection().ground_covariance(j.pixel, sigma_px, sigma_tilt);
+  j.covariance = search.rays.projection().ground_covariance(j.pixel, junction_sigma_px, junction_sigma_tilt);
   j.branches = count;
   for (int i = 0; i < count; ++i) j.direction[static_cast<std::size_t>(i)] = directions[i];
   const CameraPose& pose = search.rays.projection().pose();

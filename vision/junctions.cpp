@@ -10,7 +10,7 @@ constexpr float same_widths = 1.5F;
 constexpr float merge_sigmas = 1.5F;  // candidates that are known as well as the best count for the place
 constexpr float long_branch_widths = 2.5F;
 // A branch that the picture cuts off.
-constexpr float cut_widths = 1.2F;
+constexpr float cut_widths = 0.8F;
 constexpr float cut_px = 3.5F;
 constexpr float bare_widths = 0.4F;  // so much carpet beside a line ends it
 constexpr float bare_px = 2.0F;

@@ -13,6 +13,7 @@
 #include "vision/image/hsv.h"
 #include "vision/image/hull.h"
 #include "vision/image/morphology.h"
+#include "vision/junction_places.h"
 #include "vision/line_mask.h"
 #include "vision/line_points.h"
 #include "vision/node_graph.h"
@@ -325,6 +326,8 @@ void Pipeline::make_line_points(VisionResult& result) {
                              config_.frame_width, config_.frame_height, config_.line_width_m, config_.max_range_m};
   const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
   result.counts.dropped_line_points = counts.dropped;
+  const float camera_px = static_cast<float>(config_.frame_width) / static_cast<float>(views_.width);
+  place_junctions(result.projection, {config_.line_width_m, camera_px}, *memory_.features);
 }
 
 /// A kernel or radius of the configuration at the working width, odd.

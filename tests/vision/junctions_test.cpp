@@ -149,6 +149,17 @@ TEST_CASE("where the carpet beyond is hidden, a corner has no type") {
   CHECK(seen.rejected(JunctionRejection::at_border, {1.0F, 0.2F}));
 }
 
+TEST_CASE(
+    "a corner at the robot's feet, a branch of it cut off by the picture's edge after little more than its width") {
+  Scene scene;
+  const GroundPoint corner{0.16F, 0.1F};  // the picture ends 0.01 m ahead: a line's width of the branch is seen
+  scene.lines = {{corner, {corner.x, -1.2F}}, {corner, {-0.3F, corner.y}}};
+  const Seen seen(scene);
+  const Junction* l = seen.nearest(JunctionType::l, corner);
+  REQUIRE(l != nullptr);
+  CHECK(seen.pixels_off(*l, corner) < 2.0F * close_px);
+}
+
 TEST_CASE("junctions beyond the range are turned down") {
   Scene scene;
   scene.lines = {{{1.5F, -1.5F}, {1.5F, 1.5F}}, {{0.5F, 0.1F}, {1.5F, 0.1F}}};

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/junction_places.h"
+
+#include "platform/core/angle.h"
+#include "platform/core/elementary.h"
+#include "vision/junction_errors.h"
+
+namespace touchline {
+namespace {
+
+constexpr float graph_sigma_px = 1.5F;  // working pixels: what thinning moves a crossing by
+constexpr float point_sigma_px = 0.5F;  // likewise, of a line point
+constexpr float gate_px = 2.5F;         // likewise, across the branch: farther off is another line
+constexpr float gate_widths = 0.75F;
+constexpr float begin_px = 1.5F;  // beyond the edge of the line across, where its blur ends
+constexpr float end_m = 0.6F;     // tilt and an uneven carpet bend what is farther away
+constexpr float same_direction = radians(15.0F);
+constexpr float branch_sigma = radians(3.0F);  // of a branch's direction, as the search gave it
+
+/// A place's correction with its information matrix: the sum of what the branches say.
+struct Correction {
+  float xx = 0.0F, xy = 0.0F, yy = 0.0F;
+  float x = 0.0F, y = 0.0F;
+  void add(const GroundPoint& normal, float offset, float information) {
+    xx += information * normal.x * normal.x;
+    xy += information * normal.x * normal.y;
+    yy += information * normal.y * normal.y;
+    x += information * offset * normal.x;
+    y += information * offset * normal.y;
+  }
+};
+
+/// Weighted fit of `across = offset + slope * along`, the slope near zero.
+struct BranchFit {
+  float w = 0.0F, ws = 0.0F, wss = 0.0F, wa = 0.0F, wsa = 0.0F;
+  void add(float along, float across, float weight) {
+    w += weight;
+    ws += weight * along;
+    wss += weight * along * along;
+    wa += weight * across;
+    wsa += weight * along * across;
+  }
+};
+
+BranchFit fit_branch(const Junction& j, float direction, float line_width_m, std::span<const LinePoint> points) {
+  const GroundPoint out{math::cos(direction), math::sin(direction)};
+  BranchFit fit;
+  for (const LinePoint& p : points) {
+    const float dx = p.ground.x - j.ground.x;
+    const float dy = p.ground.y - j.ground.y;
+    const float along = dx * out.x + dy * out.y;
+    const float across = dy * out.x - dx * out.y;
+    if (along < 0.5F * line_width_m + begin_px * p.sigma || along > end_m) continue;
+    if (math::abs(across) > math::max(gate_widths * line_width_m, gate_px * p.sigma)) continue;
+    if (math::abs(angle_difference(2.0F * p.direction, 2.0F * direction)) > 2.0F * same_direction) continue;
+    fit.add(along, across, 1.0F / math::square(point_sigma_px * p.sigma));
+  }
+  return fit;
+}
+
+/// What a branch says of the junction's place across itself.
+void add_branch(const BranchFit& fit, float direction, Correction& sum) {
+  if (!(fit.w > 0.0F)) return;
+  const float slope_information = fit.wss + 1.0F / math::square(branch_sigma);
+  const float information = fit.w - fit.ws * fit.ws / slope_information;
+  const float offset = (fit.wa - fit.ws * fit.wsa / slope_information) / information;
+  sum.add({-math::sin(direction), math::cos(direction)}, offset, information);
+}
+
+}  // namespace
+
+void place_junctions(const GroundProjection& projection, const JunctionPlaceParameters& parameters,
+                     Features& features) {
+  for (Junction& j : features.junctions) {
+    if (j.type == JunctionType::x) continue;  // on the centre circle: two of its branches are no straight lines
+    const Sym2 prior = projection.ground_covariance(j.pixel, graph_sigma_px * parameters.camera_px_per_work_px, 0.0F);
+    const float prior_det = prior.xx * prior.yy - prior.xy * prior.xy;
+    if (!(prior_det > 0.0F)) continue;
+    Correction sum{prior.yy / prior_det, -prior.xy / prior_det, prior.xx / prior_det};
+    for (int i = 0; i < j.branches; ++i) {
+      const float direction = j.direction[static_cast<std::size_t>(i)];
+      add_branch(fit_branch(j, direction, parameters.line_width_m, features.line_points.span()), direction, sum);
+    }
+    const float det = sum.xx * sum.yy - sum.xy * sum.xy;  // > 0: the prior's part is positive definite
+    const GroundPoint at{j.ground.x + (sum.yy * sum.x - sum.xy * sum.y) / det,
+                         j.ground.y + (sum.xx * sum.y - sum.xy * sum.x) / det};
+    PixelPoint pixel;
+    if (!projection.pixel(at, pixel)) continue;
+    j.ground = at;
+    j.pixel = pixel;
+    j.covariance = projection.ground_covariance(pixel, junction_sigma_px, junction_sigma_tilt);
+  }
+}
+
+}  // namespace touchline
