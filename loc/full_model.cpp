@@ -25,7 +25,21 @@ constexpr float search_share = 0.10F;     // of AMCL: from here on the frame's o
 constexpr float negligible_mass = 1e-5F;  // by the particles' own weights: not worth a closer look
 constexpr float blind_decay = 0.9F;       // of confidence, with nothing in view
 constexpr float vague_sigma = 0.40F;      // m: a pose known no better than this has half the confidence
-constexpr int polish_steps = 3;           // of the best mode on all samples; the others saw the evenly thinned ones
+// Gauss-Newton: steps, and how far a line may be from a sample to be its own. A pose carried on from the frame before
+// is near; a cluster's mean is as far off as the cluster is wide; the best mode, seen on all samples at last, has
+// arrived.
+constexpr int tracking_steps = 5, search_steps = 8, polish_steps = 3;
+constexpr float tracking_gate = 0.20F, search_gate = 0.40F, polish_gate = 0.05F;  // m
+constexpr float refined_sigma = 0.05F;        // m: what a refined pose may still be off a landmark's own error
+constexpr float first_share = 0.5F;           // of particles, from the first frame's candidates
+constexpr float unsure_share = 0.25F;         // likewise, while the pose is not sure
+constexpr float largest_random_share = 0.3F;  // the rest keeps the belief
+constexpr float candidate_spread_m = 0.08F;   // of a candidate's second and later particles
+constexpr float candidate_spread_rad = 0.05F;
+constexpr float same_place_m = 0.15F, same_angle = radians(8.0F);   // two modes on one pose
+constexpr float twin_place_m = 0.40F, twin_angle = radians(20.0F);  // a mode that may be the pose's mirror image
+constexpr float tracked_favour = 2.0F;      // a mirrored twin of equal mass must not make the pose flip
+constexpr float stray_log_weight = -20.0F;  // of a particle outside of all clusters
 
 struct Factor {  // lower-triangular square root of a 3x3 covariance
   float l00, l10, l11, l20, l21, l22;
@@ -56,9 +70,9 @@ bool near(const Pose2& a, const Pose2& b, float distance, float angle) {
 void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate) {
   const float average = weigh_particles(yaw);
   if (observation_.line_weight > 1.0F) augmented_.update(average, config_.augmented);
-  const float share = frames_ == 0 ? 0.5F : augmented_.random_share(config_.augmented);
+  const float share = frames_ == 0 ? first_share : augmented_.random_share(config_.augmented);
   const bool unsure = !last_.valid || belief_ < config_.confident;
-  if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? 0.25F : 0.0F));
+  if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? unsure_share : 0.0F));
   find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
   refine_clusters(vision, yaw);
   balance_twins(yaw);
@@ -67,7 +81,7 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   polish_best(yaw);
   report_full(estimate);
   settle(estimate, 0.01F, radians(0.5F));
-  resample(yaw, math::min(share, 0.3F));
+  resample(yaw, math::min(share, largest_random_share));
 }
 
 /// Log likelihood of every particle; returns the mean over the particles of the likelihood per measurement, in (0, 1].
@@ -76,20 +90,18 @@ float Localizer::weigh_particles(const YawEvidence& yaw) {
   float sum = 0.0F;
   const float per_measurement = 1.0F / math::max(observation_.line_weight, 1.0F);
   for (int i = 0; i < p.count; ++i) {
-    const Pose2 pose = p.pose(i);
-    const float lines = line_log_likelihood(map_, observation_, pose, particle_sigma);
-    const float landmarks = landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma);
-    p.log_weight[i] = temper * (lines + landmarks) + yaw_log_likelihood(yaw, pose.theta);
+    float lines = 0.0F;
+    p.log_weight[i] = particle_log_likelihood(p.pose(i), yaw, lines);
     sum += math::exp(lines * per_measurement);
   }
   return sum / static_cast<float>(p.count);
 }
 
-/// Log likelihood of a pose drawn from the picture, as a particle's.
-float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw) const {
-  return temper * (line_log_likelihood(map_, observation_, pose, particle_sigma) +
-                   landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma)) +
-         yaw_log_likelihood(yaw, pose.theta);
+/// Log likelihood of a particle's pose; `lines` is set to the line points' part of it.
+float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw, float& lines) const {
+  lines = line_log_likelihood(map_, observation_, pose, particle_sigma);
+  const float landmarks = landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma);
+  return temper * (lines + landmarks) + yaw_log_likelihood(yaw, pose.theta);
 }
 
 /// Puts the frame's own candidates in place of every n-th particle, `share` of all: resampling keeps the order, so that
@@ -113,12 +125,13 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
     const int i = k * p.count / count;
     Pose2 pose = c.pose;
     if (k >= static_cast<int>(max_clusters)) {
-      pose.x += 0.08F * rng_.gaussian();
-      pose.y += 0.08F * rng_.gaussian();
-      pose.theta = wrap_angle(pose.theta + 0.05F * rng_.gaussian());
+      pose.x += candidate_spread_m * rng_.gaussian();
+      pose.y += candidate_spread_m * rng_.gaussian();
+      pose.theta = wrap_angle(pose.theta + candidate_spread_rad * rng_.gaussian());
     }
     p.set_pose(i, pose);
-    p.log_weight[i] = particle_log_likelihood(pose, yaw) - temper * c.missing;
+    float lines = 0.0F;
+    p.log_weight[i] = particle_log_likelihood(pose, yaw, lines) - temper * c.missing;
   }
 }
 
@@ -149,9 +162,10 @@ void Localizer::refine_clusters(const VisionResult& vision, const YawEvidence& y
 void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode) {
   mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
   if (observation_.line_weight >= 1.0F) {  // else there is nothing to refine on, and the particles know best
-    const Refinement refined = refine_pose(
-        field_, observation_.filter_lines.span(), observation_.camera, mode.tracked ? last_.pose : cluster.mean,
-        refinement_prior(yaw, mode.tracked), mode.tracked ? 0.2F : 0.4F, mode.tracked ? 5 : 8);
+    const Refinement refined =
+        refine_pose(field_, observation_.filter_lines.span(), observation_.camera,
+                    mode.tracked ? last_.pose : cluster.mean, refinement_prior(yaw, mode.tracked),
+                    mode.tracked ? tracking_gate : search_gate, mode.tracked ? tracking_steps : search_steps);
     if (refined.converged) {
       mode.refined = refined;
     } else {
@@ -161,7 +175,7 @@ void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision,
   const Refinement& r = mode.refined;
   const Visibility look = check_visibility(field_, vision, r, range_for_visibility);
   mode.evidence = temper * (r.line_log_likelihood - missing_nats_per_metre * look.missing +
-                            landmark_log_likelihood(field_, observation_, config_.landmarks, r.pose, 0.05F)) +
+                            landmark_log_likelihood(field_, observation_, config_.landmarks, r.pose, refined_sigma)) +
                   yaw_log_likelihood(yaw, r.pose.theta) -
                   0.5F * (math::square(r.pitch_error) + math::square(r.roll_error)) / math::square(config_.tilt_sigma);
 }
@@ -173,7 +187,7 @@ void Localizer::balance_twins(const YawEvidence& yaw) {
     for (std::size_t k = i + 1; k < modes_.size(); ++k) {
       Mode& a = modes_[i];
       Mode& b = modes_[k];
-      if (a.negligible || b.negligible || !near(a.refined.pose, mirrored(b.refined.pose), 0.15F, radians(8.0F)))
+      if (a.negligible || b.negligible || !near(a.refined.pose, mirrored(b.refined.pose), same_place_m, same_angle))
         continue;
       const float yaw_a = yaw_log_likelihood(yaw, a.refined.pose.theta);
       const float yaw_b = yaw_log_likelihood(yaw, b.refined.pose.theta);
@@ -186,8 +200,7 @@ void Localizer::balance_twins(const YawEvidence& yaw) {
 
 Localizer::Mode* Localizer::best_mode() {
   if (modes_.empty()) return nullptr;
-  // A mirrored twin of equal mass must not make the pose flip: the tracked mode has the benefit of the doubt.
-  const auto favour = [this](std::size_t i) { return modes_[i].mass * (modes_[i].tracked ? 2.0F : 1.0F); };
+  const auto favour = [this](std::size_t i) { return modes_[i].mass * (modes_[i].tracked ? tracked_favour : 1.0F); };
   std::size_t best = 0;
   for (std::size_t i = 1; i < modes_.size(); ++i) {
     if (favour(i) > favour(best)) best = i;
@@ -199,7 +212,7 @@ void Localizer::polish_best(const YawEvidence& yaw) {
   Mode* best = best_mode();
   if (best == nullptr || !best->refined.converged) return;
   const Refinement refined = refine_pose(field_, observation_.lines.span(), observation_.camera, best->refined.pose,
-                                         refinement_prior(yaw, best->tracked), 0.05F, polish_steps);
+                                         refinement_prior(yaw, best->tracked), polish_gate, polish_steps);
   if (refined.converged) best->refined = refined;
 }
 
@@ -225,7 +238,7 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
   for (int i = 0; i < p.count; ++i) {
     const std::size_t k = index[static_cast<std::size_t>(i)];
     if (k == no_cluster) {
-      p.log_weight[i] = -20.0F;
+      p.log_weight[i] = stray_log_weight;
       continue;
     }
     const Mode& m = modes_[k];
@@ -264,11 +277,11 @@ void Localizer::report_full(PoseEstimate& estimate) {
   const Pose2 twin = mirrored(estimate.pose);
   float mass = 0.0F;
   for (const Mode& m : modes_) {
-    if (near(m.refined.pose, twin, 0.4F, radians(20.0F))) {
+    if (near(m.refined.pose, twin, twin_place_m, twin_angle)) {
       estimate.has_mirror = true;
       estimate.mirror = m.refined.pose;
       estimate.mirror_confidence += m.mass;
-    } else if (near(m.refined.pose, estimate.pose, 0.15F, radians(8.0F))) {
+    } else if (near(m.refined.pose, estimate.pose, same_place_m, same_angle)) {
       mass += m.mass;
     } else {  // law of total variance, taken about the best mode
       const float dx = m.refined.pose.x - estimate.pose.x;
