@@ -62,7 +62,8 @@ extern "C" __attribute__((noreturn)) void run_after_reset();
 // No prologue: the compiler may save floating-point registers only once the unit is on.
 extern "C" __attribute__((naked)) void reset_handler() { asm volatile("b run_after_reset"); }
 
-extern "C" void run_after_reset() {
+// "used": named by assembler text alone, which the link-time optimiser does not read.
+extern "C" [[gnu::used]] void run_after_reset() {
   enable_fpu();
   const std::uint32_t* from = data_load;
   for (std::uint32_t* to = data_start; to < data_end;) *to++ = *from++;
