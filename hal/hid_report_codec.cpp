@@ -3,6 +3,7 @@
 
 #include "hal/byte_reader.h"
 #include "hal/crc32.h"
+#include "platform/core/elementary.h"
 #include "platform/core/geometry.h"
 
 namespace touchline {
@@ -10,7 +11,6 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-bool is_finite(float value) { return value - value == 0.0F; }
 std::size_t width(HidNumber number) { return number == HidNumber::int16 ? 2 : 4; }
 std::size_t end_of(const HidField& field) { return field.present ? field.offset + width(field.number) : 0; }
 
@@ -158,7 +158,7 @@ Result<HidReport> decode_hid_report(const HidReportLayout& layout, Bytes report)
   if (!valid) return Status::corrupt;
   sample.has_yaw_rate = layout.yaw_rate.present;
   if (sample.has_yaw_rate) sample.yaw_rate = value_of(layout.yaw_rate, report);
-  if (!is_finite(sample.yaw_rate)) return Status::corrupt;
+  if (!math::is_finite(sample.yaw_rate)) return Status::corrupt;
   if (layout.has_sequence) decoded.sequence = report[layout.sequence_offset];
   return decoded;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/odometry_history.h"
 
+#include "platform/core/elementary.h"
+
 namespace touchline {
 namespace {
-
-bool is_finite(float value) { return value - value == 0.0F; }
 
 Pose2 step_between(const GaitSample& from, const GaitSample& to) {
   return compose(inverse(from.odometry), to.odometry);
@@ -21,7 +21,8 @@ bool OdometryHistory::plausible(const GaitSample& from, const GaitSample& to) co
 
 Status OdometryHistory::push(const GaitSample& sample) {
   const Pose2& odometry = sample.odometry;
-  if (!is_finite(odometry.x) || !is_finite(odometry.y) || !is_finite(odometry.theta)) return Status::invalid_argument;
+  if (!math::is_finite(odometry.x) || !math::is_finite(odometry.y) || !math::is_finite(odometry.theta))
+    return Status::invalid_argument;
   if (has_last_ && sample.time <= last_.time) return Status::stale;
   const Pose2 here = path_.empty() ? Pose2{} : path_.newest();
   const bool same_boot = has_last_ && sample.boot_id == last_.boot_id;

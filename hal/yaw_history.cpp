@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/yaw_history.h"
 
+#include "platform/core/elementary.h"
+
 namespace touchline {
-namespace {
-
-bool is_finite(float value) { return value - value == 0.0F; }
-
-}  // namespace
-
 bool YawHistory::plausible(const ImuSample& from, const ImuSample& to) const {
   const float seconds = static_cast<float>(to.time - from.time) * 1e-9F;
   return math::abs(to.yaw - from.yaw) <= max_rate_ * seconds + slack_;
 }
 
 Status YawHistory::push(const ImuSample& sample) {
-  if (!is_finite(sample.yaw)) return Status::invalid_argument;
-  if (sample.has_tilt && !(is_finite(sample.roll) && is_finite(sample.pitch))) return Status::invalid_argument;
+  if (!math::is_finite(sample.yaw)) return Status::invalid_argument;
+  if (sample.has_tilt && !(math::is_finite(sample.roll) && math::is_finite(sample.pitch)))
+    return Status::invalid_argument;
   if (has_last_ && sample.time <= last_.time) return Status::stale;
   if (has_last_ && reattach_) {
     offset_ = curve_.newest().yaw + turned_ - sample.yaw;

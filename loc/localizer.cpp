@@ -7,8 +7,7 @@
 namespace touchline {
 namespace {
 
-bool finite(float x) { return x - x == 0.0F; }
-bool in_range(float x, float low, float high) { return finite(x) && x >= low && x <= high; }
+bool in_range(float x, float low, float high) { return math::is_finite(x) && x >= low && x <= high; }
 
 /// The first key that is out of range, or null.
 const char* first_bad_key(const LocalizerConfig& c) {
@@ -133,12 +132,13 @@ void Localizer::predict(const LocalizerInput& input) {
 Status Localizer::update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
                          StageObserver* observer) {
   if (!configured_ || frames_ < 0) return Status::not_ready;
-  if (!finite(input.odometry.x) || !finite(input.odometry.y) || !finite(input.odometry.theta) ||
-      !finite(input.unknown_xy) || !finite(input.unknown_theta) || (input.has_yaw && !finite(input.yaw)) ||
+  if (!math::is_finite(input.odometry.x) || !math::is_finite(input.odometry.y) ||
+      !math::is_finite(input.odometry.theta) || !math::is_finite(input.unknown_xy) ||
+      !math::is_finite(input.unknown_theta) || (input.has_yaw && !math::is_finite(input.yaw)) ||
       input.time_s - input.time_s != 0.0) {
     return Status::invalid_argument;
   }
-  if (observer != nullptr) observer->begin(Stage::localize);
+  const StageScope scope(observer, Stage::localize);
   if (input.moved_by_hand) {
     draw_from_prior(Prior{});
     features_.clear();
@@ -162,7 +162,6 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
   last_ = estimate;
   last_time_s_ = input.time_s;
   ++frames_;
-  if (observer != nullptr) observer->end(Stage::localize);
   return Status::ok;
 }
 

@@ -23,55 +23,18 @@
 namespace touchline {
 namespace {
 
-/// Tells the observer, if there is one, when a stage begins and ends.
-class StageScope {
- public:
-  StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
-    if (observer_ != nullptr) observer_->begin(stage_);
-  }
-  ~StageScope() {
-    if (observer_ != nullptr) observer_->end(stage_);
-  }
-  StageScope(const StageScope&) = delete;
-  StageScope& operator=(const StageScope&) = delete;
-
- private:
-  StageObserver* observer_;
-  Stage stage_;
-};
-
-bool is_finite(float x) { return x - x == 0.0F; }
 bool is_valid(const CameraPose& pose) {
-  return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.yaw) && is_finite(pose.pitch) &&
-         is_finite(pose.roll) && is_finite(pose.height) && pose.height > 0.0F;
+  return math::is_finite(pose.x) && math::is_finite(pose.y) && math::is_finite(pose.yaw) &&
+         math::is_finite(pose.pitch) && math::is_finite(pose.roll) && math::is_finite(pose.height) &&
+         pose.height > 0.0F;
 }
-bool is_valid(const Pose2& pose) { return is_finite(pose.x) && is_finite(pose.y) && is_finite(pose.theta); }
+bool is_valid(const Pose2& pose) {
+  return math::is_finite(pose.x) && math::is_finite(pose.y) && math::is_finite(pose.theta);
+}
 
 Status refuse(const char** what, const char* key) {
   if (what != nullptr) *what = key;
   return Status::invalid_argument;
-}
-
-bool odd_kernel(int side) { return side >= 1 && side <= 31 && side % 2 == 1; }
-
-Status check(const VisionConfig& c, const char** what) {
-  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr)
-    return refuse(what, "kernels");
-  if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
-  if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
-  if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");
-  if (!odd_kernel(c.line_dilate_px)) return refuse(what, "line_dilate_px");
-  if (!odd_kernel(c.line_erode_px)) return refuse(what, "line_erode_px");
-  if (!(c.line_width_m > 0.005F && c.line_width_m < 1.0F)) return refuse(what, "line_width_m");
-  if (!(c.max_range_m > 0.1F && c.max_range_m < 100.0F)) return refuse(what, "max_range_m");
-  if (c.green.hue_low > c.green.hue_high) return refuse(what, "green");
-  if (c.digestion_radius_px < 1 || c.digestion_radius_px > 64) return refuse(what, "digestion_radius_px");
-  for (const int weight : {c.low_weight, c.medium_weight, c.high_weight}) {
-    if (weight < 0 || weight > 32767) return refuse(what, "low_weight, medium_weight, high_weight");
-  }
-  if (c.spur_px < 0 || c.spur_px > 64) return refuse(what, "spur_px");
-  if (!(c.circle_radius_m >= 0.0F && c.circle_radius_m < 10.0F)) return refuse(what, "circle_radius_m");
-  return Status::ok;
 }
 
 constexpr int reference_width = 320;  // lengths of the configuration are in working pixels of this width
@@ -79,7 +42,7 @@ constexpr int reference_width = 320;  // lengths of the configuration are in wor
 }  // namespace
 
 Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const char** what) {
-  if (const Status status = check(config, what); status != Status::ok) return status;
+  if (const Status status = check_config(config, what); status != Status::ok) return status;
   if (static_cast<std::size_t>(config.fifo_depth) > memory_.depth) return refuse(what, "fifo_depth");
   PipelineViews views;
   if (!make_views(memory_, config.work_width, config.work_height, views)) return refuse(what, "work_width");
@@ -140,35 +103,16 @@ Status Pipeline::process(const FrameInput& input, VisionResult& result, StageObs
 Status Pipeline::average(const FrameInput& input, VisionResult& result) {
   if (const Status status = subsampler_.run(input.image, fifo_.next_slot()); status != Status::ok) return status;
   fifo_.push();
-  remember(input);
+  movement_.remember(input.camera, input.odometry);
+  const float px_a_radian = lens_.parameters().focal_px * work_px_per_frame_px();
   std::array<bool, max_fifo_depth> still{};
-  for (int age = 0; age < fifo_.size(); ++age) still[static_cast<std::size_t>(age)] = still_since(age);
+  for (int age = 0; age < fifo_.size(); ++age) {
+    still[static_cast<std::size_t>(age)] = movement_.since(age) * px_a_radian < 1.0F;
+  }
   result.mean = fifo_.mean_of_still(still);
   result.counts.frames_in_mean = fifo_.frames_in_mean();
   result.counts.frames_left_out = fifo_.size() - fifo_.frames_in_mean();
   return Status::ok;
-}
-
-void Pipeline::remember(const FrameInput& input) {
-  std::copy_backward(held_.begin(), held_.end() - 1, held_.end());
-  held_[0] = {input.camera, input.odometry};
-}
-
-/// Whether the camera has moved by less than a working pixel since the frame of that age: the turn as an angle, the
-/// step as it is seen at the nearest ground, one camera height away.
-bool Pipeline::still_since(int age) const {
-  Pose2 step;
-  for (int i = age - 1; i >= 0; --i) step = compose(step, held_[static_cast<std::size_t>(i)].odometry);
-  const CameraPose& now = held_[0].camera;
-  const CameraPose& then = held_[static_cast<std::size_t>(age)].camera;
-  const float turn = math::abs(wrap_angle(now.pitch - then.pitch)) + math::abs(wrap_angle(now.roll - then.roll)) +
-                     math::abs(wrap_angle(now.yaw - then.yaw + step.theta));
-  const float travel =
-      math::hypot(now.x - then.x + step.x, now.y - then.y + step.y) + math::abs(now.height - then.height);
-  const float pixels_a_frame_pixel =
-      math::max(static_cast<float>(views_.width) / static_cast<float>(config_.frame_width),
-                static_cast<float>(views_.height) / static_cast<float>(config_.frame_height));
-  return (turn + travel / now.height) * lens_.parameters().focal_px * pixels_a_frame_pixel < 1.0F;
 }
 
 void Pipeline::find_green_stage(VisionResult& result) {
@@ -328,6 +272,12 @@ void Pipeline::make_line_points(VisionResult& result) {
   result.counts.dropped_line_points = counts.dropped;
   const float camera_px = static_cast<float>(config_.frame_width) / static_cast<float>(views_.width);
   place_junctions(result.projection, {config_.line_width_m, camera_px}, *memory_.features);
+}
+
+/// The larger of both directions.
+float Pipeline::work_px_per_frame_px() const {
+  return math::max(static_cast<float>(views_.width) / static_cast<float>(config_.frame_width),
+                   static_cast<float>(views_.height) / static_cast<float>(config_.frame_height));
 }
 
 /// A kernel or radius of the configuration at the working width, odd.

@@ -2,9 +2,8 @@
 // One call from a camera frame to the features on the ground: the paper's section IV in order.
 #pragma once
 
-#include <array>
-
 #include "platform/core/status.h"
+#include "vision/camera_movement.h"
 #include "vision/green.h"
 #include "vision/image/frame.h"
 #include "vision/image/frame_fifo.h"
@@ -40,15 +39,7 @@ class Pipeline {
   [[nodiscard]] const VisionConfig& config() const { return config_; }
 
  private:
-  /// Where the camera was when a frame of the FIFO was taken.
-  struct Held {
-    CameraPose camera;
-    Pose2 odometry;  // robot's step since the frame before this one
-  };
-
   Status average(const FrameInput& input, VisionResult& result);
-  void remember(const FrameInput& input);
-  [[nodiscard]] bool still_since(int age) const;
   void find_green_stage(VisionResult& result);
   void find_roi(VisionResult& result);
   void find_candidates(VisionResult& result);
@@ -60,6 +51,7 @@ class Pipeline {
   void find_post_colour(const VisionResult& result);
   void find_goal_posts(VisionResult& result);
   void make_line_points(VisionResult& result);
+  [[nodiscard]] float work_px_per_frame_px() const;
   [[nodiscard]] int scaled(int px) const;
   [[nodiscard]] int scaled_length(int px) const;
 
@@ -70,7 +62,7 @@ class Pipeline {
   PipelineViews views_;
   Subsampler subsampler_;
   FrameFifo fifo_;
-  std::array<Held, max_fifo_depth> held_{};  // the newest first
+  CameraMovement movement_;
   CarpetModel carpet_;
   SkeletonIndex index_;
 };

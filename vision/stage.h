@@ -39,4 +39,21 @@ class StageObserver {
   virtual void do_end(Stage stage) = 0;
 };
 
+/// Tells the observer, if there is one, when a stage begins and ends.
+class StageScope {
+ public:
+  StageScope(StageObserver* observer, Stage stage) : observer_(observer), stage_(stage) {
+    if (observer_ != nullptr) observer_->begin(stage_);
+  }
+  ~StageScope() {
+    if (observer_ != nullptr) observer_->end(stage_);
+  }
+  StageScope(const StageScope&) = delete;
+  StageScope& operator=(const StageScope&) = delete;
+
+ private:
+  StageObserver* observer_;
+  Stage stage_;
+};
+
 }  // namespace touchline

@@ -8,6 +8,7 @@
 
 #include "platform/core/geometry.h"
 #include "platform/core/static_vector.h"
+#include "platform/core/status.h"
 #include "vision/image/hsv.h"
 #include "vision/image/kernels.h"
 
@@ -48,5 +49,8 @@ struct VisionConfig {
   float max_range_m = 6.0F;  // junctions farther than this are not reported: a pixel is then wider than a line
   StaticVector<MaskPolygon, max_mask_polygons> body_mask;  // camera pixels; where the robot sees itself
 };
+
+/// invalid_argument: a value is not finite or out of range, and `what` names the key, when not null.
+Status check_config(const VisionConfig& config, const char** what);
 
 }  // namespace touchline

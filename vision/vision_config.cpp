@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vision/vision_config.h"
+
+#include "vision/image/frame_fifo.h"
+
+namespace touchline {
+namespace {
+
+Status refuse(const char** what, const char* key) {
+  if (what != nullptr) *what = key;
+  return Status::invalid_argument;
+}
+
+bool odd_kernel(int side) { return side >= 1 && side <= 31 && side % 2 == 1; }
+
+}  // namespace
+
+Status check_config(const VisionConfig& c, const char** what) {
+  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr)
+    return refuse(what, "kernels");
+  if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
+  if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
+  if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");
+  if (!odd_kernel(c.line_dilate_px)) return refuse(what, "line_dilate_px");
+  if (!odd_kernel(c.line_erode_px)) return refuse(what, "line_erode_px");
+  if (!(c.line_width_m > 0.005F && c.line_width_m < 1.0F)) return refuse(what, "line_width_m");
+  if (!(c.max_range_m > 0.1F && c.max_range_m < 100.0F)) return refuse(what, "max_range_m");
+  if (c.green.hue_low > c.green.hue_high) return refuse(what, "green");
+  if (c.digestion_radius_px < 1 || c.digestion_radius_px > 64) return refuse(what, "digestion_radius_px");
+  for (const int weight : {c.low_weight, c.medium_weight, c.high_weight}) {
+    if (weight < 0 || weight > 32767) return refuse(what, "low_weight, medium_weight, high_weight");
+  }
+  if (c.spur_px < 0 || c.spur_px > 64) return refuse(what, "spur_px");
+  if (!(c.circle_radius_m >= 0.0F && c.circle_radius_m < 10.0F)) return refuse(what, "circle_radius_m");
+  return Status::ok;
+}
+
+}  // namespace touchline
