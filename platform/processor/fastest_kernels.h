@@ -8,7 +8,8 @@ namespace touchline {
 
 inline Kernels fastest_kernels() {
 #if defined(__x86_64__)
-  if (avx2_kernels().name != nullptr && __builtin_cpu_supports("avx2")) return avx2_kernels();
+  // The processor first: the function that names them is compiled for AVX2 itself.
+  if (__builtin_cpu_supports("avx2") && avx2_kernels().name != nullptr) return avx2_kernels();
 #endif
   return portable_kernels();
 }
