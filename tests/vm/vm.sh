@@ -70,9 +70,9 @@ share=$work/share
 mkdir -p "$share"
 cmake --build "$build" --target make_walk >/dev/null
 if [ "$architecture" = amd64 ]; then
-  programs=$build root=/ busybox=$(command -v busybox) guest_share=$share
+  programs=$build root=/ busybox=$(command -v busybox) guest_share=$share keep=$work
 else
-  root=$work/root guest_share=/share
+  root=$work/root guest_share=/share keep=/share
   bash platform/sbc/sysroot.sh arm64 "$root" libc6 libgcc-s1 libstdc++6 libjpeg62-turbo libpng16-16 zlib1g libtomlplusplus3 \
     libv4l-0 libv4lconvert0 libhidapi-hidraw0 libudev1 libgpiod2 busybox-static || skip "no arm64 packages for the guest"
   bash platform/sbc/sysroot.sh arm64 "$work/sysroot" || skip "no arm64 packages to link with"
@@ -134,7 +134,7 @@ else
 fi
 timeout -k 5 $limit "${machine[@]}" -accel tcg -m 512 -nodefaults -display none -no-reboot \
   -kernel "$work/kernel/boot/vmlinuz-$version" -initrd "$work/initramfs.gz" \
-  -append "console=$console quiet panic=-1 share=$guest_share gait=${serial_ports[0]} robot=${serial_ports[1]} parts=${VM_PARTS:-backends,robot,faults} limit=$((limit - 100))" \
+  -append "console=$console quiet panic=-1 share=$guest_share keep=$keep gait=${serial_ports[0]} robot=${serial_ports[1]} parts=${VM_PARTS:-backends,robot,faults} limit=$((limit - 100))" \
   "${ports[@]}" \
   -virtfs "local,path=$root,mount_tag=host,security_model=none,readonly=on,multidevs=remap" \
   -virtfs "local,path=$work/out,mount_tag=out,security_model=none" \
