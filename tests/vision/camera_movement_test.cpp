@@ -31,10 +31,10 @@ TEST_CASE("steps add up, as seen from one camera height; turns of head and robot
   movement.remember(camera(0.5F, 30.0F), {});
   movement.remember(camera(0.5F, 30.0F), {0.03F, 0.0F, 0.0F});
   movement.remember(camera(0.5F, 30.0F), {0.0F, 0.04F, 0.0F});
-  CHECK(movement.since(1) == doctest::Approx(0.04F / 0.5F));
-  CHECK(movement.since(2) == doctest::Approx(0.05F / 0.5F));
+  CHECK(movement.since(1) == doctest::Approx(0.08));
+  CHECK(movement.since(2) == doctest::Approx(0.10));
   movement.remember(camera(0.5F, 28.0F), {0.0F, 0.0F, radians(3.0F)});
-  CHECK(movement.since(1) == doctest::Approx(radians(5.0F)));
+  CHECK(movement.since(1) == doctest::Approx(static_cast<double>(radians(5.0F))));
 }
 
 TEST_CASE("a head that turns back what the robot has turned sees the same picture") {
@@ -43,5 +43,5 @@ TEST_CASE("a head that turns back what the robot has turned sees the same pictur
   CameraPose turned = camera(0.5F, 30.0F);
   turned.yaw = radians(-10.0F);
   movement.remember(turned, {0.0F, 0.0F, radians(10.0F)});
-  CHECK(movement.since(1) == doctest::Approx(0.0F));
+  CHECK(movement.since(1) == doctest::Approx(0.0));
 }
