@@ -17,8 +17,8 @@ class MonotonicClock final : public Clock {
   }
   void do_wait_until(MonotonicNs time) override {
     timespec until{};
-    until.tv_sec = time / one_second;
-    until.tv_nsec = time % one_second;
+    until.tv_sec = static_cast<decltype(until.tv_sec)>(time / one_second);
+    until.tv_nsec = static_cast<decltype(until.tv_nsec)>(time % one_second);
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
   }
 };

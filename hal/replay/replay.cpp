@@ -72,7 +72,7 @@ Result<CameraFrame> Replay::ReplayCamera::do_acquire(MonotonicNs deadline) {
     ++next_;
     ++result.skipped;
   }
-  result.image = owner_.images_[next_ % owner_.images_.size()].view();
+  result.image = owner_.images_[static_cast<std::size_t>(next_ % owner_.images_.size())].view();
   result.time = owner_.time_of(next_);
   result.sequence = next_;
   owner_.current_ = next_++;

@@ -34,7 +34,7 @@ class Replay {
   [[nodiscard]] GaitLink& gait() { return gait_; }
   [[nodiscard]] const host::DataSet& dataset() const { return set_; }
   /// The frame last lent, with its truth if the set has one; the first before any.
-  [[nodiscard]] const host::DataFrame& current() const { return set_.frames[current_ % set_.frames.size()]; }
+  [[nodiscard]] const host::DataFrame& current() const { return frame(current_); }
 
  private:
   class ReplayCamera final : public Camera {
@@ -87,7 +87,7 @@ class Replay {
 
   [[nodiscard]] std::uint64_t total() const { return static_cast<std::uint64_t>(options_.loops) * set_.frames.size(); }
   [[nodiscard]] const host::DataFrame& frame(std::uint64_t number) const {
-    return set_.frames[number % set_.frames.size()];
+    return set_.frames[static_cast<std::size_t>(number % set_.frames.size())];
   }
   [[nodiscard]] MonotonicNs time_of(std::uint64_t number) const;
 

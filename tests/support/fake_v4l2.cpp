@@ -64,8 +64,8 @@ int dequeue(V4l2& fake, v4l2_buffer& buffer) {
   buffer.sequence = frame.sequence;
   buffer.flags = frame.flags;
   buffer.bytesused = frame.bytes_used != 0 ? frame.bytes_used : fake.image_bytes;
-  buffer.timestamp.tv_sec = frame.time_ns / 1'000'000'000;
-  buffer.timestamp.tv_usec = frame.time_ns % 1'000'000'000 / 1000;
+  buffer.timestamp.tv_sec = static_cast<decltype(buffer.timestamp.tv_sec)>(frame.time_ns / 1'000'000'000);
+  buffer.timestamp.tv_usec = static_cast<decltype(buffer.timestamp.tv_usec)>(frame.time_ns % 1'000'000'000 / 1000);
   return 0;
 }
 
