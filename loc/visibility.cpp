@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/visibility.h"
 
+#include "loc/pose_view.h"
 #include "platform/core/elementary.h"
 
 namespace touchline {
@@ -12,33 +13,11 @@ constexpr int tolerance_px = 3;            // what the pose may be off in the pi
 
 struct Look {
   const VisionResult& vision;
-  GroundProjection projection;
-  Pose2 pose;
-  math::SinCos turn;  // of the pose
+  PoseView view;
   float max_range;
-  float scale_u, scale_v;  // camera pixels to working pixels
   int reach;
   Visibility out;
 
-  bool working_pixel(const GroundPoint& g, int& x, int& y) const {
-    PixelPoint p;
-    if (!projection.pixel(g, p)) return false;
-    const float u = p.u * scale_u;
-    const float v = p.v * scale_v;
-    if (!(u >= 0.0F && v >= 0.0F)) return false;
-    x = static_cast<int>(u);
-    y = static_cast<int>(v);
-    return x < vision.work_width && y < vision.work_height;
-  }
-
-  [[nodiscard]] bool line_near(int x, int y) const {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        if (vision.line_mask.get(x + dx, y + dy)) return true;
-      }
-    }
-    return false;
-  }
   /// Carpet all around: the sample and its neighbours at the tolerance are green.
   [[nodiscard]] bool green_around(int x, int y) const {
     return vision.green.get(x, y) && vision.green.get(x - reach, y) && vision.green.get(x + reach, y) &&
@@ -46,14 +25,12 @@ struct Look {
   }
 
   void sample(const FieldPoint& p) {
-    const float dx = p.x - pose.x;  // to_ground(), with the sine and the cosine taken once
-    const float dy = p.y - pose.y;
-    const GroundPoint g{turn.cos * dx + turn.sin * dy, turn.cos * dy - turn.sin * dx};
+    const GroundPoint g = view.ground(p);
     if (g.x * g.x + g.y * g.y > max_range * max_range) return;
     int x = 0;
     int y = 0;
-    if (!working_pixel(g, x, y) || !vision.roi.get(x, y)) return;
-    if (line_near(x, y)) {
+    if (!view.working_pixel(g, x, y) || !vision.roi.get(x, y)) return;
+    if (view.line_near(x, y, reach)) {
       out.seen += spacing_m;
     } else if (green_around(x, y)) {
       out.missing += spacing_m;
@@ -84,18 +61,9 @@ struct Look {
 
 Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
                             float max_range) {
-  CameraPose camera = vision.projection.pose();
-  camera.pitch += refined.pitch_error;
-  camera.roll += refined.roll_error;
-  const float su = static_cast<float>(vision.work_width) / static_cast<float>(vision.frame_width);
-  const float sv = static_cast<float>(vision.work_height) / static_cast<float>(vision.frame_height);
   Look look{vision,
-            GroundProjection(vision.projection.lens(), camera),
-            refined.pose,
-            math::sin_cos(refined.pose.theta),
+            PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
             max_range,
-            su,
-            sv,
             tolerance_px * vision.work_width / 320,
             {}};
   for (const FieldLine& line : field.lines()) look.segment(line);

@@ -26,12 +26,14 @@ Figure wrong_half(const std::string& set, const Summary& s) {
 
 /// The frames of the full model at the default size, gathered for the figures over all sets.
 struct Gathered {
+  JunctionScore seen_junctions{};
   JunctionScore junctions{};
   bool has_junctions = false;
   int outside = 0;
   int frames = 0;
 
   void add(const Summary& s) {
+    seen_junctions += s.seen_junctions;
     junctions += s.junctions;
     has_junctions = has_junctions || s.has_junctions;
     outside += s.outside_3_sigma;
@@ -95,13 +97,19 @@ void kidsize_figures(const DataSet& set, Figures& out, Gathered& all) {
   out.push_back(share("real-kidsize: within 0.10 m, 2 deg", s.within(0.10, 2.0), s.with_truth, std::nullopt, 100.0));
 }
 
-void gathered_figures(const Gathered& all, Figures& out) {
+void junction_figures(const JunctionScore& score, const std::string& which, Figures& out) {
   for (const auto type : {JunctionType::x, JunctionType::t, JunctionType::l}) {
-    if (!all.has_junctions) break;
-    const JunctionCount& c = all.junctions[static_cast<std::size_t>(type)];
-    const std::string name = std::string("junctions ") + touchline::to_string(type);
+    const JunctionCount& c = score[static_cast<std::size_t>(type)];
+    const std::string name = "junctions " + std::string(touchline::to_string(type)) + which;
     out.push_back(share(name + ": precision", c.right, c.right + c.wrong, 85.0, 95.0));
     out.push_back(share(name + ": recall", c.found, c.to_find, 70.0, 90.0));
+  }
+}
+
+void gathered_figures(const Gathered& all, Figures& out) {
+  if (all.has_junctions) {
+    junction_figures(all.junctions, "", out);
+    junction_figures(all.seen_junctions, ", vision alone", out);
   }
   if (all.frames > 0) {
     out.push_back(size("truth outside 3 sigma, data sets", 100.0 * all.outside / all.frames, "%", std::nullopt, 2.0));

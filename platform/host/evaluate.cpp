@@ -38,10 +38,13 @@ void show(Chain& chain, LocalizerInput input, int most, StageObserver& clock, Fr
   }
 }
 
-void judge_record(FrameRecord& record) {
+void judge_record(FrameRecord& record, const VisionResult& vision) {
   if (record.frame.has_truth) record.error = judge(record.frame.truth, record.estimate);
   if (const auto expected = read_expected(record.frame.path)) {
-    record.junction_score = score_junctions(*expected, record.junctions);
+    std::vector<Junction> reported;
+    for (const KnownJunction& known : record.junctions) reported.push_back(known.junction);
+    record.junction_score = score_junctions(*expected, reported);
+    record.seen_junction_score = score_junctions(*expected, vision.features->junctions.span());
   }
 }
 
@@ -77,6 +80,9 @@ std::vector<std::string> panel_text(const FrameRecord& record, const VisionResul
                             static_cast<int>(vision.graph.edges.size())));
   lines.push_back(formatted("junctions %d, turned down %d", static_cast<int>(vision.features->junctions.size()),
                             static_cast<int>(vision.features->rejections.size())));
+  const auto by_map = std::count_if(record.junctions.begin(), record.junctions.end(),
+                                    [](const auto& known) { return known.source == JunctionSource::map; });
+  lines.push_back(formatted("the map adds %d, turns down %d", static_cast<int>(by_map), record.junctions_turned_down));
   lines.push_back(formatted("line points %d, posts %d", static_cast<int>(vision.features->line_points.size()),
                             static_cast<int>(vision.features->posts.size())));
   return lines;
@@ -102,6 +108,7 @@ void write_overlay(const std::filesystem::path& file, const FrameRecord& record,
   input.vision = &chain.vision();
   input.field = &chain.field();
   input.estimate = record.estimate;
+  input.known = record.junctions;
   input.has_truth = record.frame.has_truth;
   input.truth = record.frame.truth;
   input.particles = chain.particles();
@@ -168,12 +175,19 @@ class Run {
     left_odometry_.reset();
     left_kidnap_ = false;
     record.us = clock_.times();
-    record.junctions.assign(vision.features->junctions.begin(), vision.features->junctions.end());
+    check(record, vision);
     record.posts.assign(vision.features->posts.begin(), vision.features->posts.end());
-    judge_record(record);
+    judge_record(record, vision);
     if (options_.frames_out.empty()) return;
     const auto folder = std::filesystem::path(options_.frames_out) / folder_name(set_.name);
     write_overlay(folder / names_.next(record.frame.path), record, picture, chain_);
+  }
+
+  void check(FrameRecord& record, const VisionResult& vision) const {
+    KnownJunctions known;
+    check_junctions(chain_.field(), vision, record.estimate, LocalizerConfig{}.confident, known);
+    record.junctions.assign(known.list.begin(), known.list.end());
+    record.junctions_turned_down = known.turned_down;
   }
 
   void leave_out(FrameRecord& record, const char* why) {
@@ -248,6 +262,7 @@ Summary summarize(std::span<const FrameRecord* const> frames) {
     if (record->junction_score) {
       sum.has_junctions = true;
       sum.junctions += *record->junction_score;
+      sum.seen_junctions += *record->seen_junction_score;
     }
     if (!record->error) continue;
     ++sum.with_truth;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "loc/known_junctions.h"
 #include "platform/host/chain.h"
 #include "platform/host/dataset.h"
 #include "platform/host/junction_score.h"
@@ -36,11 +37,14 @@ struct FrameRecord {
   PoseEstimate estimate;
   int shows = 0;
   bool settled = false;
-  std::vector<Junction> junctions;
+  std::vector<KnownJunction> junctions;
+  int junctions_turned_down = 0;  // by a sure pose
   std::vector<PostObservation> posts;
   StageTimes us{};
-  std::optional<PoseError> error;               // where there is a truth
-  std::optional<JunctionScore> junction_score;  // where there are expected landmarks
+  std::optional<PoseError> error;  // where there is a truth
+  // Where there are expected landmarks: of what vision reports, and of `junctions`.
+  std::optional<JunctionScore> seen_junction_score;
+  std::optional<JunctionScore> junction_score;
 };
 
 struct SetResult {
@@ -71,7 +75,8 @@ struct Summary {
   std::vector<double> distances_m;
   std::vector<double> angles_deg;
   bool has_junctions = false;
-  JunctionScore junctions{};
+  JunctionScore seen_junctions{};  // vision alone
+  JunctionScore junctions{};       // as reported: checked with the map
   double mean_shows = 0.0;
   int most_shows = 0;
   int not_settled = 0;

@@ -172,6 +172,21 @@ void draw_mask(Canvas& canvas, const ConstBitView& mask, const WorkToCamera& to_
   }
 }
 
+/// A square for each junction that the field alone has told.
+void draw_known(Canvas& canvas, const std::vector<KnownJunction>& known) {
+  constexpr float half = 6.0F;
+  for (const auto& [junction, source] : known) {
+    if (source != JunctionSource::map) continue;
+    const Colour colour = colour_of(junction.type);
+    const auto [u, v] = junction.pixel;
+    const DrawPoint corner[4] = {
+        {u - half, v - half}, {u + half, v - half}, {u + half, v + half}, {u - half, v + half}};
+    for (std::size_t i = 0; i < 4; ++i) canvas.line(corner[i], corner[(i + 1) % 4], colour, 2);
+    canvas.label(static_cast<int>(u + half) + 2, static_cast<int>(v), std::string(to_string(junction.type)) + " map",
+                 colour);
+  }
+}
+
 RgbImage draw_overlay(const OverlayInput& input) {
   const RgbImage& picture = *input.picture;
   const VisionResult& vision = *input.vision;
@@ -184,6 +199,7 @@ RgbImage draw_overlay(const OverlayInput& input) {
   if (input.estimate.valid)
     draw_projected_field(view, vision.projection, *input.field, input.estimate.pose, colours::red);
   draw_features(view, vision.projection, *vision.features, true);
+  draw_known(view, input.known);
   Canvas sheet(picture.width + panel_width, std::max(picture.height, 480), colours::dark);
   sheet.paste(view.image(), 0, 0);
   draw_panel(sheet, input, picture.width);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "loc/known_junctions.h"
 #include "loc/localizer.h"
 #include "platform/host/canvas.h"
 #include "platform/host/image_file.h"
@@ -40,6 +41,7 @@ struct OverlayInput {
   const VisionResult* vision = nullptr;
   const Field* field = nullptr;
   PoseEstimate estimate;
+  std::vector<KnownJunction> known;
   bool has_truth = false;
   Pose2 truth;
   std::vector<Pose2> particles;

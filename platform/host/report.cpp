@@ -52,11 +52,12 @@ json landmark_json(const PixelPoint& pixel, const GroundPoint& ground, float con
           {"confidence", share(confidence)}};
 }
 
-json junctions_json(const std::vector<Junction>& junctions) {
+json junctions_json(const std::vector<KnownJunction>& junctions) {
   json out = json::array();
-  for (const auto& j : junctions) {
+  for (const auto& [j, source] : junctions) {
     json entry = {{"type", to_string(j.type)}};
     entry.update(landmark_json(j.pixel, j.ground, j.confidence));
+    entry["source"] = to_string(source);
     out.push_back(entry);
   }
   return out;
@@ -109,7 +110,10 @@ json figures(const Summary& s) {
     out["worst_deg"] = rounded(quantile(s.angles_deg, 1.0), 1e-3);
     for (const int cm : {5, 10, 20, 30, 40}) out["within_" + std::to_string(cm) + "_cm"] = s.within(cm * 0.01);
   }
-  if (s.has_junctions) out["junctions"] = junction_score_json(s.junctions);
+  if (s.has_junctions) {
+    out["junctions"] = junction_score_json(s.junctions);
+    out["junctions_by_vision"] = junction_score_json(s.seen_junctions);
+  }
   out["shows_mean"] = rounded(s.mean_shows, 1e-2);
   out["shows_most"] = s.most_shows;
   out["us_median"] = times_json(s.median_us);
@@ -172,8 +176,8 @@ void print_sequence(std::ostream& out, const SequenceScore& score) {
   }
 }
 
-void print_junctions(std::ostream& out, const JunctionScore& score) {
-  out << "  junctions within 2.5 m, by 4 px:";
+void print_junctions(std::ostream& out, const char* which, const JunctionScore& score) {
+  out << "  junctions within 2.5 m, by 4 px, " << which << ":";
   for (const auto type : {JunctionType::x, JunctionType::t, JunctionType::l}) {
     const auto& c = score[static_cast<std::size_t>(type)];
     const double none = std::numeric_limits<double>::quiet_NaN();
@@ -284,7 +288,10 @@ void print_table_summary(std::ostream& out, const SetResult& set) {
   }
   if (s.with_truth > 0) print_errors(out, s);
   if (set.sequence) print_sequence(out, *set.sequence);
-  if (s.has_junctions) print_junctions(out, s.junctions);
+  if (s.has_junctions) {
+    print_junctions(out, "vision alone", s.seen_junctions);
+    print_junctions(out, "as reported", s.junctions);
+  }
   out << "  median us:";
   for (std::size_t i = 0; i < stage_count; ++i) {
     if (s.median_us[i] > 0.0) print(out, " %s %.0f", to_string(static_cast<Stage>(i)), s.median_us[i]);

@@ -39,14 +39,39 @@ void SyntheticView::add_line_point(const GroundProjection& told, const GroundPoi
   if (ground.x * ground.x + ground.y * ground.y > options_.max_range * options_.max_range) return;
   LinePoint p;
   if (!see(ground, options_.pixel_noise, rng, p.pixel)) return;
-  const int x = static_cast<int>(p.pixel.u * 320.0F / static_cast<float>(frame_width_));
-  const int y = static_cast<int>(p.pixel.v * 240.0F / static_cast<float>(frame_height_));
-  memory_->lines.view().set(x, y, true);
   if (!options_.lines || !told.ground(p.pixel, p.ground) || !told.robot_ray(p.pixel, p.ray)) return;
   p.direction = direction;
   p.length = length;
   p.sigma = math::sqrt(told.ground_covariance(p.pixel, 2.0F, 0.0F).xx);
   memory_->features.line_points.push_back(p);
+}
+
+/// The lines' middle, without a gap in the working picture.
+void SyntheticView::draw_line_mask(const Pose2& truth) {
+  constexpr float spacing = 0.005F;
+  const auto draw = [&](const FieldPoint& at) {
+    const GroundPoint ground = to_ground(truth, at);
+    PixelPoint p;
+    if (ground.x * ground.x + ground.y * ground.y > options_.max_range * options_.max_range) return;
+    if (!true_projection_.pixel(ground, p) || p.u < 0.0F || p.v < 0.0F) return;
+    const int x = static_cast<int>(p.u * 320.0F / static_cast<float>(frame_width_));
+    const int y = static_cast<int>(p.v * 240.0F / static_cast<float>(frame_height_));
+    if (x < 320 && y < 240) memory_->lines.view().set(x, y, true);
+  };
+  for (const FieldLine& line : field_.lines()) {
+    const float length = math::hypot(line.b.x - line.a.x, line.b.y - line.a.y);
+    const int steps = static_cast<int>(length / spacing);
+    for (int i = 0; i <= steps; ++i) {
+      const float t = static_cast<float>(i) / static_cast<float>(steps);
+      draw({line.a.x + (line.b.x - line.a.x) * t, line.a.y + (line.b.y - line.a.y) * t});
+    }
+  }
+  const float r = field_.dimensions().circle_radius;
+  const int steps = static_cast<int>(math::two_pi * r / spacing);
+  for (int i = 0; i < steps; ++i) {
+    const float a = math::two_pi * static_cast<float>(i) / static_cast<float>(steps);
+    draw({r * math::cos(a), r * math::sin(a)});
+  }
 }
 
 void SyntheticView::add_lines(const Pose2& truth, Rng& rng) {
@@ -98,7 +123,10 @@ const VisionResult& SyntheticView::look(const Pose2& truth, const CameraPose& ca
       for (int x = 0; x < 320; ++x) mask->view().set(x, y, !options.covered);
     }
   }
-  if (!options.covered) add_lines(truth, rng);
+  if (!options.covered) {
+    draw_line_mask(truth);
+    add_lines(truth, rng);
+  }
   if (!options.covered && options.junctions) add_junctions(truth, rng);
   result_ = {};
   result_.projection = told_projection_;

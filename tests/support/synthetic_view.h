@@ -35,6 +35,7 @@ class SyntheticView {
     BitImage<320, 240> roi, green, lines;
   };
   void add_line_point(const GroundProjection& told, const GroundPoint& ground, float direction, float length, Rng& rng);
+  void draw_line_mask(const Pose2& truth);
   void add_lines(const Pose2& truth, Rng& rng);
   void add_junctions(const Pose2& truth, Rng& rng);
   [[nodiscard]] bool see(const GroundPoint& ground, float noise, Rng& rng, PixelPoint& pixel) const;
