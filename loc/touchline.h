@@ -3,6 +3,7 @@
 // pose.
 #pragma once
 
+#include "loc/known_junctions.h"
 #include "loc/localizer.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"

@@ -7,18 +7,6 @@
 
 namespace touchline::test {
 
-Lens paper_lens() {
-  LensParameters p;
-  p.model = LensModel::equidistant;
-  p.focal_px = 232.9F;
-  p.cx = 376.0F;
-  p.cy = 240.0F;
-  p.max_theta = radians(92.5F);
-  Lens lens;
-  REQUIRE(Lens::create(p, lens) == Status::ok);
-  return lens;
-}
-
 SyntheticView::SyntheticView(const Field& field, const Lens& lens, int frame_width, int frame_height)
     : field_(field),
       lens_(lens),

@@ -7,6 +7,7 @@
 
 #include "loc/field.h"
 #include "platform/core/rng.h"
+#include "tests/support/paper_lens.h"
 #include "vision/image/bit_image.h"
 #include "vision/vision_result.h"
 
@@ -48,8 +49,5 @@ class SyntheticView {
   std::unique_ptr<Memory> memory_;
   VisionResult result_{};
 };
-
-/// The lens of the paper's robot: 185 degrees, equidistant, 752x480.
-Lens paper_lens();
 
 }  // namespace touchline::test

@@ -23,7 +23,7 @@ struct Masks {
 };
 
 Masks look(const Scene& scene) {
-  const GroundProjection projection(fish_eye(), usual_pose());
+  const GroundProjection projection(test::paper_lens(), usual_pose());
   WorkImage image = work_image(paint(scene, projection));
   Bits ground(w, h);
   for (int y = 120; y < h; ++y) set_span(ground.view(), y, 40, 280, true);
@@ -51,7 +51,7 @@ int pixels(const Bits& mask, int x0, int y0, int x1, int y1) {
 
 /// Working pixel of a ground point.
 GridPoint work_pixel(const GroundPoint& p) {
-  const GroundProjection projection(fish_eye(), usual_pose());
+  const GroundProjection projection(test::paper_lens(), usual_pose());
   PixelPoint pixel;
   REQUIRE(projection.pixel(p, pixel));
   return {static_cast<std::int16_t>(pixel.u / 2.35F), static_cast<std::int16_t>(pixel.v / 2.0F)};

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "tests/support/ascii_image.h"
+#include "tests/support/paper_lens.h"
 #include "tests/vision/painted_field.h"
 #include "vision/image/bit_ops.h"
 
@@ -33,12 +34,12 @@ bool sees_ground(const GroundProjection& projection, int x, int y, float range) 
 
 TEST_CASE("the mask agrees with the projection but for pixels on its border") {
   Grid grid;
-  make_ray_grid(fish_eye(), 752, 480, w, h, grid.view());
-  make_seen_mask(fish_eye(), 752, 480, {}, grid.seen.view());
+  make_ray_grid(test::paper_lens(), 752, 480, w, h, grid.view());
+  make_seen_mask(test::paper_lens(), 752, 480, {}, grid.seen.view());
   for (const float roll : {0.0F, 0.4F, -1.2F}) {
     CameraPose pose = usual_pose();
     pose.roll = roll;
-    const GroundProjection projection(fish_eye(), pose);
+    const GroundProjection projection(test::paper_lens(), pose);
     Bits ground(w, h);
     make_ground_mask(grid.view(), pose, 5.0F, grid.seen.view(), ground.view());
     int wrong = 0;
@@ -66,7 +67,7 @@ TEST_CASE("the robot's own body is left out") {
     REQUIRE(body[0].push_back(p));
   }
   Bits seen(w, h);
-  make_seen_mask(fish_eye(), 752, 480, body, seen.view());
+  make_seen_mask(test::paper_lens(), 752, 480, body, seen.view());
   CHECK_FALSE(seen.view().get(160, 220));
   CHECK(seen.view().get(120, 220));
   CHECK(seen.view().get(160, 190));

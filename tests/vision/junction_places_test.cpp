@@ -15,7 +15,7 @@ namespace {
 constexpr float px_m = 0.01F;  // metres on the ground of a working pixel
 
 struct View {
-  GroundProjection projection{test::fish_eye(), test::usual_pose()};
+  GroundProjection projection{test::paper_lens(), test::usual_pose()};
   std::unique_ptr<Features> features = std::make_unique<Features>();
 
   /// Points every 2 cm from `from` metres to `to` metres from `start` in a direction.

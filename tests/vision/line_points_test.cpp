@@ -26,7 +26,7 @@ struct Found {
 
 /// Line mask and skeleton straight from the picture: what is brighter than half way between carpet and white.
 std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float line_width) {
-  const GroundProjection projection(fish_eye(), pose);
+  const GroundProjection projection(test::paper_lens(), pose);
   WorkImage image = work_image(paint(scene, projection));
   Bits mask(w, h);
   for (int y = 0; y < h; ++y) {
@@ -74,7 +74,7 @@ TEST_CASE("each point carries its ray, its pixel, the length it stands for and w
   scene.stripes = {{{0.3F, 0.4F}, {2.5F, 0.4F}, 0.10F, line_white}};
   const auto found = find(scene, usual_pose(), 0.10F);
   REQUIRE(found->points.size() > 30);
-  const GroundProjection projection(fish_eye(), usual_pose());
+  const GroundProjection projection(test::paper_lens(), usual_pose());
   float length = 0.0F;
   for (const LinePoint& p : found->points.span()) {
     GroundPoint by_ray, by_pixel;

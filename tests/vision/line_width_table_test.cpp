@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table against lines that are projected into the image one by one.
 #include "vision/line_width_table.h"
+#include "tests/support/paper_lens.h"
 
 #include <doctest/doctest.h>
 
@@ -13,18 +14,6 @@ namespace {
 
 constexpr int frame_width = 752, frame_height = 480, work_width = 320, work_height = 240;
 using Table = Image<LineWidth, work_width / width_block_px, work_height / width_block_px>;
-
-Lens fish_eye() {
-  LensParameters p;
-  p.model = LensModel::equidistant;
-  p.focal_px = 232.9F;
-  p.cx = 376.0F;
-  p.cy = 240.0F;
-  p.max_theta = radians(92.5F);
-  Lens lens;
-  REQUIRE(Lens::create(p, lens) == Status::ok);
-  return lens;
-}
 
 template <int W, int H>
 void fill_table(const GroundProjection& projection, float line_width_m, ImageView<LineWidth> table) {
@@ -65,7 +54,7 @@ float measured_extent(const GroundProjection& projection, float u, float v, floa
 
 TEST_CASE("widths agree with projected lines wherever a line is a pixel wide and the picture does not end") {
   for (const float roll : {0.0F, 0.3F}) {
-    const GroundProjection projection(fish_eye(), {0.0F, 0.0F, 0.58F, 0.1F, radians(30.0F), roll});
+    const GroundProjection projection(test::paper_lens(), {0.0F, 0.0F, 0.58F, 0.1F, radians(30.0F), roll});
     const auto table = make_table(projection, 0.05F);
     int compared = 0;
     for (int y = 0; y < 30; ++y) {
@@ -96,7 +85,7 @@ TEST_CASE("widths agree with projected lines wherever a line is a pixel wide and
 }
 
 TEST_CASE("no ground, no width: above the horizon and outside the lens") {
-  LensParameters p = fish_eye().parameters();
+  LensParameters p = test::paper_lens().parameters();
   p.max_theta = radians(40.0F);  // image circle of 163 camera pixels
   Lens narrow;
   REQUIRE(Lens::create(p, narrow) == Status::ok);
@@ -121,7 +110,7 @@ TEST_CASE("no ground, no width: above the horizon and outside the lens") {
 }
 
 TEST_CASE("twice the line, twice the width") {
-  const GroundProjection projection(fish_eye(), {0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F});
+  const GroundProjection projection(test::paper_lens(), {0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F});
   const auto thin = make_table(projection, 0.05F);
   const auto wide = make_table(projection, 0.10F);
   for (std::size_t i = 0; i < thin->samples.size(); ++i) {
@@ -131,7 +120,7 @@ TEST_CASE("twice the line, twice the width") {
 }
 
 TEST_CASE("a table whose size is no multiple of the block still covers the picture") {
-  const GroundProjection projection(fish_eye(), {0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F});
+  const GroundProjection projection(test::paper_lens(), {0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F});
   Image<LineWidth, 13, 8> table;
   fill_table<100, 60>(projection, 0.05F, table.view());
   CHECK(table.view().at(6, 7).across_row > 0);

@@ -36,18 +36,6 @@ std::uint8_t level(float v) { return static_cast<std::uint8_t>(std::clamp(v + 0.
 
 }  // namespace
 
-Lens fish_eye() {
-  LensParameters p;
-  p.model = LensModel::equidistant;
-  p.focal_px = 232.9F;
-  p.cx = 376.0F;
-  p.cy = 240.0F;
-  p.max_theta = radians(92.5F);
-  Lens lens;
-  REQUIRE(Lens::create(p, lens) == Status::ok);
-  return lens;
-}
-
 CameraPose usual_pose() { return {0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F}; }
 
 Picture paint(const Scene& scene, const GroundProjection& projection, int width, int height) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "platform/core/geometry.h"
+#include "tests/support/paper_lens.h"
 #include "vision/image/frame.h"
 #include "vision/image/image_view.h"
 #include "vision/lens/camera_pose.h"
@@ -45,8 +46,7 @@ struct Picture {
   [[nodiscard]] FrameView view() const { return {PixelFormat::rgb24, rgb.data(), width, height, width * 3}; }
 };
 
-/// The lens and camera of the data sets: 752x480, 185 degrees equidistant, 0.58 m high, 30 degrees down.
-Lens fish_eye();
+/// The camera of the data sets, for paper_lens(): 0.58 m high, 30 degrees down.
 CameraPose usual_pose();
 Picture paint(const Scene& scene, const GroundProjection& projection, int width = 752, int height = 480);
 

@@ -25,7 +25,7 @@ struct Chain {
 
   Chain() {
     config.line_width_m = 0.10F;
-    REQUIRE(pipeline.configure(config, fish_eye()) == Status::ok);
+    REQUIRE(pipeline.configure(config, test::paper_lens()) == Status::ok);
   }
   Status run(const Picture& picture, const CameraPose& pose = usual_pose(), const Pose2& step = {}) {
     return pipeline.process({picture.view(), 0.0, pose, step}, result);
@@ -41,7 +41,7 @@ Scene cross() {
 }
 
 Picture painted(const Scene& scene, const CameraPose& pose = usual_pose()) {
-  return paint(scene, GroundProjection(fish_eye(), pose));
+  return paint(scene, GroundProjection(test::paper_lens(), pose));
 }
 
 /// Distance to the nearer of the two lines of cross().
@@ -140,7 +140,7 @@ TEST_CASE("a configuration that cannot be is refused by name, and the old one st
     VisionConfig config = chain.config;
     change(config);
     const char* what = nullptr;
-    CHECK(chain.pipeline.configure(config, fish_eye(), &what) != Status::ok);
+    CHECK(chain.pipeline.configure(config, test::paper_lens(), &what) != Status::ok);
     REQUIRE(what != nullptr);
     return std::string(what);
   };
@@ -194,7 +194,7 @@ TEST_CASE("twice the working size gives the same lines") {
   config.fifo_depth = 1;
   config.work_width = 640;
   config.work_height = 480;
-  REQUIRE(pipeline.configure(config, fish_eye()) == Status::ok);
+  REQUIRE(pipeline.configure(config, test::paper_lens()) == Status::ok);
   const Picture picture = painted(cross());
   VisionResult result;
   REQUIRE(pipeline.process({picture.view(), 0.0, usual_pose(), {}}, result) == Status::ok);

@@ -7,34 +7,23 @@
 #include <limits>
 
 #include "platform/core/rng.h"
+#include "tests/support/paper_lens.h"
 
 using namespace touchline;
 
 namespace {
 
-Lens fish_eye() {
-  LensParameters p;
-  p.model = LensModel::equidistant;
-  p.focal_px = 232.9F;
-  p.cx = 376.0F;
-  p.cy = 240.0F;
-  p.max_theta = radians(92.5F);
-  Lens lens;
-  REQUIRE(Lens::create(p, lens) == Status::ok);
-  return lens;
-}
-
 const PixelPoint centre{376.0F, 240.0F};
 
 GroundPoint axis_on_ground(const CameraPose& pose) {
   GroundPoint p;
-  REQUIRE(GroundProjection(fish_eye(), pose).ground(centre, p));
+  REQUIRE(GroundProjection(test::paper_lens(), pose).ground(centre, p));
   return p;
 }
 
 PixelPoint seen_at(const CameraPose& pose, const GroundPoint& point, float z = 0.0F) {
   PixelPoint p;
-  REQUIRE(GroundProjection(fish_eye(), pose).pixel(point, z, p));
+  REQUIRE(GroundProjection(test::paper_lens(), pose).pixel(point, z, p));
   return p;
 }
 
@@ -88,17 +77,17 @@ TEST_CASE("any roll is legal: upside down, left and right, up and down change pl
 }
 
 TEST_CASE("at and above the horizon there is no ground, nor without a height") {
-  const GroundProjection level(fish_eye(), {0.0F, 0.0F, 0.5F, 0.0F, 0.0F, 0.0F});
+  const GroundProjection level(test::paper_lens(), {0.0F, 0.0F, 0.5F, 0.0F, 0.0F, 0.0F});
   GroundPoint p{7.0F, 7.0F};
   CHECK_FALSE(level.ground(centre, p));
   CHECK_FALSE(level.ground({376.0F, 100.0F}, p));
   CHECK_FALSE(level.ground({-100.0F, 240.0F}, p));
   CHECK(p.x == 7.0F);
   CHECK(level.ground({376.0F, 250.0F}, p));
-  CHECK_FALSE(GroundProjection(fish_eye(), {0.0F, 0.0F, 0.0F, 0.0F, 0.5F, 0.0F}).ground(centre, p));
+  CHECK_FALSE(GroundProjection(test::paper_lens(), {0.0F, 0.0F, 0.0F, 0.0F, 0.5F, 0.0F}).ground(centre, p));
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
-  CHECK_FALSE(GroundProjection(fish_eye(), {0.0F, 0.0F, not_a_number, 0.0F, 0.5F, 0.0F}).ground(centre, p));
-  CHECK_FALSE(GroundProjection(fish_eye(), {0.0F, 0.0F, 0.5F, 0.0F, not_a_number, 0.0F}).ground(centre, p));
+  CHECK_FALSE(GroundProjection(test::paper_lens(), {0.0F, 0.0F, not_a_number, 0.0F, 0.5F, 0.0F}).ground(centre, p));
+  CHECK_FALSE(GroundProjection(test::paper_lens(), {0.0F, 0.0F, 0.5F, 0.0F, not_a_number, 0.0F}).ground(centre, p));
   CHECK_FALSE(GroundProjection().ground(centre, p));
 }
 
@@ -109,7 +98,7 @@ TEST_CASE("pixel to ground to pixel, for any attitude") {
   for (int i = 0; i < 3000; ++i) {
     const CameraPose pose{rng.uniform(-0.1F, 0.1F), rng.uniform(-0.1F, 0.1F), rng.uniform(0.3F, 1.2F),
                           rng.uniform(-3.1F, 3.1F), rng.uniform(0.0F, 1.0F),  rng.uniform(-3.1F, 3.1F)};
-    const GroundProjection projection(fish_eye(), pose);
+    const GroundProjection projection(test::paper_lens(), pose);
     const PixelPoint p{rng.uniform(0.0F, 752.0F), rng.uniform(0.0F, 480.0F)};
     GroundPoint g;
     if (!projection.ground(p, g) || math::hypot(g.x, g.y) > 20.0F) continue;
@@ -131,7 +120,7 @@ TEST_CASE("covariance: one pixel and the tilt by the definition, in small steps"
                           rng.uniform(-1.0F, 1.0F),
                           rng.uniform(0.3F, 0.7F),
                           rng.uniform(-0.5F, 0.5F)};
-    const GroundProjection projection(fish_eye(), pose);
+    const GroundProjection projection(test::paper_lens(), pose);
     const PixelPoint p{rng.uniform(150.0F, 600.0F), rng.uniform(150.0F, 440.0F)};
     GroundPoint g;
     if (!projection.ground(p, g) || math::hypot(g.x, g.y) > 4.0F) continue;
@@ -150,12 +139,14 @@ TEST_CASE("covariance: one pixel and the tilt by the definition, in small steps"
     CameraPose more = pose, less = pose;
     more.pitch += step;
     less.pitch -= step;
-    REQUIRE((GroundProjection(fish_eye(), more).ground(p, a) && GroundProjection(fish_eye(), less).ground(p, b)));
+    REQUIRE((GroundProjection(test::paper_lens(), more).ground(p, a) &&
+             GroundProjection(test::paper_lens(), less).ground(p, b)));
     columns[2] = shift(a, b, sigma_tilt / (2.0F * step));
     more = less = pose;
     more.roll += step;
     less.roll -= step;
-    REQUIRE((GroundProjection(fish_eye(), more).ground(p, a) && GroundProjection(fish_eye(), less).ground(p, b)));
+    REQUIRE((GroundProjection(test::paper_lens(), more).ground(p, a) &&
+             GroundProjection(test::paper_lens(), less).ground(p, b)));
     columns[3] = shift(a, b, sigma_tilt / (2.0F * step));
     Sym2 expected;
     for (const GroundPoint& c : columns) {
@@ -173,7 +164,7 @@ TEST_CASE("covariance: one pixel and the tilt by the definition, in small steps"
 
 TEST_CASE("half a degree of pitch is 6 cm at 2 m from half a metre of height") {
   const CameraPose pose{0.0F, 0.0F, 0.58F, 0.0F, radians(30.0F), 0.0F};
-  const GroundProjection projection(fish_eye(), pose);
+  const GroundProjection projection(test::paper_lens(), pose);
   PixelPoint p;
   REQUIRE(projection.pixel({2.0F, 0.0F}, p));
   const Sym2 covariance = projection.ground_covariance(p, 0.0F, radians(0.5F));
@@ -182,6 +173,6 @@ TEST_CASE("half a degree of pitch is 6 cm at 2 m from half a metre of height") {
 }
 
 TEST_CASE("where there is no ground the covariance says so") {
-  const GroundProjection level(fish_eye(), {0.0F, 0.0F, 0.5F, 0.0F, 0.0F, 0.0F});
+  const GroundProjection level(test::paper_lens(), {0.0F, 0.0F, 0.5F, 0.0F, 0.0F, 0.0F});
   CHECK(level.ground_covariance(centre, 1.0F, 0.01F).xx > 1e5F);
 }
