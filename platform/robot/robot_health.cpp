@@ -79,6 +79,7 @@ LedPattern RobotLoop::led(const FaultSet& set) const {
        {Fault::imu_missing, Fault::imu_stale, Fault::gait_missing, Fault::gait_silent, Fault::output}) {
     if (set.has(fault)) return LedPattern::fault;
   }
+  if (sensors_.gait_lost()) return LedPattern::fault;
   const bool sure = estimate_.valid && estimate_.confidence > config_.localizer.confident;
   return sure ? LedPattern::sure : LedPattern::searching;
 }

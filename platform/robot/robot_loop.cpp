@@ -48,6 +48,7 @@ Status RobotLoop::configure(const RobotConfig& config, const char** what) {
 Status RobotLoop::turn(RobotReport& report, StageObserver* observer) {
   if (!configured_) return Status::invalid_argument;
   const MonotonicNs now = devices_.clock->now();
+  if (!turned_) last_used_ = now;  // a camera that is there gets the time to say so before a report does without
   watch_clock(now);
   sensors_.service(now, events_);
   service_panel(now);
@@ -182,6 +183,7 @@ Status RobotLoop::report_idle(MonotonicNs now, RobotReport& report) {
   if (now - last_used_ < config_.idle_after || now - last_report_ < config_.idle_report) return Status::not_ready;
   report = {};
   if (now > reckoned_to_) reckon_to(now);
+  attitude_ = sensors_.attitude_at(now);
   report.time = now;
   report.odometry_used = sensors_.path_at(now).known;
   finish(report, now);

@@ -74,7 +74,7 @@ void Sensors::service_gait(MonotonicNs now, EventFaults& events) {
   if (corrupt != gait_corrupt_) events.note(Fault::gait_corrupt, now);
   gait_corrupt_ = corrupt;
   gait_silent_ = now - gait_heard_ > config_.gait_stale;
-  gait_fresh_ = has_state_ && !gait_silent_;
+  gait_fresh_ = has_state_ && now - gait_used_ <= config_.gait_stale;
 }
 
 void Sensors::take(const GaitSample& sample, MonotonicNs now, EventFaults& events) {
@@ -87,10 +87,11 @@ void Sensors::take(const GaitSample& sample, MonotonicNs now, EventFaults& event
   if (restarted) events.note(Fault::gait_restarted, now);
   if (odometry_.jumps() != jumps) events.note(Fault::gait_jump, now);
   path_broken_ = status == Status::corrupt;
+  gait_heard_ = now;
   if (status != Status::ok) return;
   // What was walked before a restart, or hidden by a jump that stays, is in no sum.
   if (restarted || was_odd) unknown_s_ += to_seconds(sample.time - before);
-  gait_heard_ = now;
+  gait_used_ = now;
   has_state_ = true;
   state_ = sample;
   const HeadState head{sample.has_camera_attitude, sample.has_head, sample.camera_height, sample.camera_pitch,

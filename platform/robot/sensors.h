@@ -44,6 +44,8 @@ class Sensors {
 
   [[nodiscard]] bool fallen() const { return gait_fresh_ && state_.fallen; }
   [[nodiscard]] bool lifted() const { return gait_fresh_ && state_.lifted; }
+  /// There is a gait link, but nothing of it can be used at the moment: silent, missing, or implausible.
+  [[nodiscard]] bool gait_lost() const { return gait_ != nullptr && !gait_fresh_; }
   /// States of both devices, by name.
   void add_faults(FaultSet& faults) const;
   [[nodiscard]] DeviceHealth imu_health() const { return imu_ != nullptr ? imu_->health() : DeviceHealth{}; }
@@ -89,8 +91,9 @@ class Sensors {
   bool imu_fresh_ = false;   // its newest sample may be used
   bool imu_silent_ = false;  // it has said nothing for too long, since its opening or its last sample
   bool gait_silent_ = false;
-  MonotonicNs gait_heard_ = 0;
-  bool path_broken_ = false;  // the newest sample was a jump, not yet known to stay
+  MonotonicNs gait_heard_ = 0;  // when the newest sample was read, and
+  MonotonicNs gait_used_ = 0;   // the newest that was plausible
+  bool path_broken_ = false;    // the newest sample was a jump, not yet known to stay
   double unknown_s_ = 0.0;
   std::uint32_t gait_corrupt_ = 0;
 };

@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <ostream>
 
 #include "hal/linux/device_list.h"
@@ -21,6 +23,14 @@ const char* name_of(GaitBackend backend) {
   return backend == GaitBackend::none ? "none" : backend == GaitBackend::serial ? "serial" : "replay";
 }
 
+/// A run that ends by itself has an outcome: its lines. A reader that went away had enough.
+void check_all_written(const Publisher& publisher) {
+  if (publisher.lines_lost() == 0 || publisher.line_error() == EPIPE) return;
+  throw host::HostError(
+      "standard output: " + std::to_string(publisher.lines_lost()) + " lines did not get through: " +
+      (publisher.line_error() == EAGAIN ? "the reader was too slow" : std::strerror(publisher.line_error())));
+}
+
 void section(std::ostream& out, const char* title, const std::string& text) {
   out << title << "\n" << (text.empty() ? "  none found\n" : text);
 }
@@ -34,24 +44,22 @@ int run_robot(const RunCommand& command, std::ostream& err) {
     err << "touchline: note: " << command.file << ": " << sentence << "\n" << std::flush;
   }
   const std::string problems = apply_realtime(daemon.file().realtime);
-  if (!problems.empty()) err << "touchline: " << problems << std::flush;
+  if (!problems.empty()) err << problems << std::flush;
   ServiceNotifier notifier;
   notifier.ready();
-  while (!Signals::end_asked() && daemon.turn()) {
+  bool asked = false;
+  while (!(asked = Signals::end_asked()) && daemon.turn()) {
     if (Signals::reload_asked()) daemon.reload();
     notifier.alive(daemon.now());
     if (command.frames > 0 && daemon.report().frames >= command.frames) break;
   }
   notifier.stopping();
+  if (!asked) check_all_written(daemon.publisher());
   return 0;
 }
 
 int check_robot(const std::string& path, std::ostream& out) {
   const RobotFile file = read_robot_file(path);
-  for (const std::string& address : file.output.udp) {
-    const std::string error = udp_address_error(address);
-    if (!error.empty()) throw host::HostError(std::string(path).append(": [output] udp: ").append(error));
-  }
   const bool replayed = file.camera_backend == CameraBackend::replay;
   out << path << (file.assumed.empty() ? " is good.\n" : " has no mistake, but is not all about your robot:\n");
   for (const std::string& sentence : file.assumed) out << "  note: " << sentence << "\n";

@@ -94,13 +94,13 @@ Daemon::~Daemon() = default;
 
 void Daemon::load_goal_yaw() {
   const GoalYawFile::Loaded loaded = goal_yaw_file_.load();
-  if (!loaded.problem.empty()) log_.line(now(), "the goal's yaw: ", loaded.problem, "");
+  if (!loaded.problem.empty()) log_.say("the goal's yaw: ", loaded.problem, "");
   if (!loaded.found) return;
   file_.robot.goal_yaw_known = true;
   file_.robot.goal_yaw = loaded.yaw;
   goal_yaw_is_kept_ = true;
   kept_goal_yaw_ = loaded.yaw;
-  log_.line(now(), "the goal's yaw is that of ", goal_yaw_file_.path(), "");
+  log_.say("the goal's yaw is that of ", goal_yaw_file_.path(), "");
 }
 
 /// After a press, and when the device has got a new zero.
@@ -116,10 +116,10 @@ void Daemon::keep_goal_yaw() {
     goal_yaw_is_kept_ = true;
     goal_yaw_told_ = false;
     kept_goal_yaw_ = yaw;
-    log_.line(now(), "the goal's yaw is kept in ", goal_yaw_file_.path(), "");
+    log_.say("the goal's yaw is kept in ", goal_yaw_file_.path(), "");
   } else if (!goal_yaw_told_) {
     goal_yaw_told_ = true;
-    log_.line(now(), "the goal's yaw cannot be kept in ", goal_yaw_file_.path(), std::strerror(errno));
+    log_.say("the goal's yaw cannot be kept in ", goal_yaw_file_.path(), std::strerror(errno));
   }
 }
 
@@ -130,9 +130,8 @@ bool Daemon::turn() {
   if (status != Status::ok) return true;
   ++published_;
   if (!publisher_.publish(line_.format(report_))) loop_->note_output_failure();
-  log_.update(report_.faults, now(), [this](Fault fault) {
-    return fault == Fault::output ? std::strerror(publisher_.last_error()) : devices_.detail(fault);
-  });
+  log_.update(report_.faults, now(),
+              [this](Fault fault) { return fault == Fault::output ? publisher_.problem() : devices_.detail(fault); });
   return true;
 }
 
@@ -147,12 +146,12 @@ void Daemon::reload() {
     config.localizer = file.robot.localizer;
     if (loop_->configure(config, &what) == Status::ok) {
       file_.robot = config;
-      log_.line(now(), "thresholds read again from ", path_.string(), "");
+      log_.say("thresholds read again from ", path_.string(), "");
     } else {
-      log_.line(now(), "thresholds stay: ", path_.string(), what != nullptr ? what : "refused");
+      log_.say("thresholds stay: ", path_.string(), what != nullptr ? what : "refused");
     }
   } catch (const host::HostError& error) {
-    log_.line(now(), "thresholds stay: ", error.what(), "");
+    log_.say("thresholds stay: ", error.what(), "");
   }
 }
 

@@ -51,6 +51,7 @@ class Daemon {
   [[nodiscard]] const RobotReport& report() const { return report_; }
   [[nodiscard]] std::uint64_t published() const { return published_; }
   [[nodiscard]] const RobotFile& file() const { return file_; }
+  [[nodiscard]] const Publisher& publisher() const { return publisher_; }
   [[nodiscard]] MonotonicNs now() const { return devices_.devices().clock->now(); }
 
  private:

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/sbc/fault_log.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 
 namespace touchline::sbc {
 
-void FaultLog::line(MonotonicNs now, std::string_view what, std::string_view subject, std::string_view detail) {
+bool FaultLog::has_room(MonotonicNs now) {
   if (!started_ || now - window_ >= period) {
     started_ = true;
     window_ = now;
     in_window_ = 0;
   }
-  if (in_window_ == burst) {
-    ++left_out_;
-    return;
-  }
+  if (in_window_ == burst) return false;
   ++in_window_;
-  char text[400];
+  return true;
+}
+
+void FaultLog::say(std::string_view what, std::string_view subject, std::string_view detail) {
+  char text[800];
   int size = std::snprintf(text, sizeof text, "touchline: %.*s%.*s%s%.*s", static_cast<int>(what.size()), what.data(),
                            static_cast<int>(subject.size()), subject.data(), detail.empty() ? "" : ": ",
                            static_cast<int>(detail.size()), detail.data());
@@ -28,7 +27,7 @@ void FaultLog::line(MonotonicNs now, std::string_view what, std::string_view sub
                        : std::snprintf(text + length, sizeof text - length, "\n");
   left_out_ = 0;
   if (size > 0) length += static_cast<std::size_t>(size);
-  (void)!::write(descriptor_, text, length);  // a log that cannot be written must not stop the robot
+  (void)writer_.write({text, length});  // a log that cannot be written must not stop the robot
 }
 
 }  // namespace touchline::sbc

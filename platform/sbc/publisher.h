@@ -3,19 +3,17 @@
 // what cannot be written at once is dropped and counted.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <netinet/in.h>
-#include <sys/socket.h>
+#include "platform/sbc/line_writer.h"
+#include "platform/sbc/udp_address.h"
 
 namespace touchline::sbc {
-
-/// Empty when "host:port" names a numeric address and a port, else what is wrong with it.
-std::string udp_address_error(const std::string& address);
 
 class Publisher {
  public:
@@ -27,25 +25,33 @@ class Publisher {
 
   /// False when the line did not reach some place.
   bool publish(std::string_view line);
+  /// Lines that did not reach some place.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
   /// errno of the last failure; 0: none yet. EAGAIN: the reader is too slow.
   [[nodiscard]] int last_error() const { return last_error_; }
-  /// Nobody reads any more (a closed pipe).
-  [[nodiscard]] bool closed() const { return closed_; }
+  /// The place that failed last, and why: "standard output: No space left on device".
+  [[nodiscard]] const char* problem() const { return problem_.data(); }
+  /// Nobody reads the descriptor any more (a closed pipe). It stays a failure of every line.
+  [[nodiscard]] bool closed() const { return writer_.closed(); }
+  /// Lines that did not reach the descriptor, and errno of the last one.
+  [[nodiscard]] std::uint64_t lines_lost() const { return lines_lost_; }
+  [[nodiscard]] int line_error() const { return line_error_; }
 
  private:
   struct Target {
     int descriptor = -1;
-    sockaddr_storage address{};
-    socklen_t size = 0;
+    UdpAddress address;
+    std::string text;
   };
-  bool write_line(std::string_view line);
+  void note(const char* where, int error);
 
-  int descriptor_;
-  bool closed_ = false;
+  LineWriter writer_;
   std::vector<Target> targets_;
   std::uint64_t dropped_ = 0;
+  std::uint64_t lines_lost_ = 0;
+  int line_error_ = 0;
   int last_error_ = 0;
+  std::array<char, 160> problem_{};
 };
 
 }  // namespace touchline::sbc

@@ -6,12 +6,18 @@
 
 #include "platform/host/toml_file.h"
 #include "platform/sbc/robot_file_tables.h"
+#include "platform/sbc/udp_address.h"
 
 namespace touchline::sbc {
 
 void read_output(KeyReader table, RobotFile& file) {
   file.output.standard_output = table.flag("stdout", file.output.standard_output);
   file.output.udp = table.texts("udp");
+  for (const std::string& address : file.output.udp) {
+    UdpAddress parsed;
+    const std::string wrong = parse_udp_address(address, parsed);
+    if (!wrong.empty()) table.fail("udp", wrong);
+  }
   table.finish();
 }
 

@@ -36,7 +36,7 @@ void touch_stack() {
 }
 
 std::string refusal(const char* what, const char* remedy) {
-  return std::string(what) + ": " + std::strerror(errno) + "; " + remedy + "\n";
+  return std::string("touchline: ") + what + ": " + std::strerror(errno) + "; " + remedy + "\n";
 }
 
 }  // namespace
@@ -74,9 +74,10 @@ Signals::Signals() {
   handle(SIGINT, on_end);
   handle(SIGHUP, on_reload);
   handle(SIGPIPE, SIG_IGN);
+  handle(SIGXFSZ, SIG_IGN);  // a file as long as it may be: EFBIG instead
 }
 Signals::~Signals() {
-  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE}) handle(signal, SIG_DFL);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGPIPE, SIGXFSZ}) handle(signal, SIG_DFL);
 }
 bool Signals::end_asked() { return end_signal != 0; }
 bool Signals::reload_asked() {

@@ -12,7 +12,8 @@ namespace touchline::sbc {
 /// Locks memory, sets scheduler and core. What the system refuses is no failure: one line for each goes to the log.
 std::string apply_realtime(const RealtimeConfig& config);
 
-/// SIGTERM and SIGINT ask to end, SIGHUP to read the file again; SIGPIPE is ignored. One object at a time.
+/// SIGTERM and SIGINT ask to end, SIGHUP to read the file again; SIGPIPE and SIGXFSZ are
+/// ignored. One object at a time.
 class Signals {
  public:
   Signals();

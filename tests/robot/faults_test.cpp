@@ -195,6 +195,41 @@ TEST_CASE("odometry that leaps is no step") {
   CHECK(robot.error() < 0.3F);
 }
 
+TEST_CASE("odometry that no robot can walk, on and on: a jump is named and no silence") {
+  TestRobot robot;
+  settle(robot);
+  robot.gait.ahead_speed = 50.0F;
+  robot.run(3 * second);
+  CHECK(robot.has(Fault::gait_jump));
+  CHECK_FALSE(robot.has(Fault::gait_silent));
+  CHECK_FALSE(robot.report.odometry_used);
+  CHECK(robot.panel.pattern() == LedPattern::fault);
+  robot.gait.ahead_speed = 0.0F;
+  robot.run(5 * second);
+  check_well(robot);
+}
+
+TEST_CASE("before the first picture the report says which camera attitude would be used") {
+  TestRobot robot;
+  robot.camera.mode = TestCamera::Mode::missing;
+  robot.run(second);
+  CHECK(robot.reports > 0);
+  CHECK(robot.report.camera.height == scene().config.mount.height);
+  robot.gait.state.has_camera_attitude = true;
+  robot.gait.state.camera_height = 0.43F;
+  robot.gait.state.camera_pitch = 0.3F;
+  robot.run(second);
+  CHECK(robot.report.attitude_source == AttitudeSource::gait_link);
+  CHECK(robot.report.camera.height == doctest::Approx(0.43F));
+}
+
+TEST_CASE("a camera that is there at start is reported with its first picture, not before") {
+  TestRobot robot;
+  robot.run(400 * one_millisecond);
+  CHECK(robot.report.frames > 0);
+  CHECK(static_cast<std::uint64_t>(robot.reports) == robot.report.frames);
+}
+
 TEST_CASE("fallen or lifted: no pose meanwhile, and a start from nothing after it") {
   for (const Fault fault : {Fault::fallen, Fault::lifted}) {
     INFO(doctest::String(to_string(fault)));

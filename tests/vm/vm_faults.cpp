@@ -213,7 +213,7 @@ void test_full_disk(FaultStage& stage) {
   std::ofstream(disk + "/filler") << std::string(100000, 'x');
   const int out = ::open((disk + "/lines").c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
   stage.start_daemon("state_file = \"" + disk + "/goal_yaw\"\n", out);
-  check(stage.until_logged(10.0, "fault: output: No space left on device"),
+  check(stage.until_logged(10.0, "fault: output: standard output: No space left on device"),
         "fault output (disk full): named in the log");
   press_button(stage);
   check(stage.until_logged(10.0, "the goal's yaw cannot be kept in " + disk),
