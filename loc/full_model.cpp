@@ -119,7 +119,7 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
   }
   sort_best_first(candidates_);
   const ParticleView p = particles();
-  const int count = std::max(1, static_cast<int>(math::min(share, 0.5F) * static_cast<float>(p.count)));
+  const int count = std::max(1, part_of(p.count, math::min(share, 0.5F)));
   for (int k = 0; k < count; ++k) {
     const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % std::min(candidates_.size(), max_clusters)];
     const int i = k * p.count / count;
@@ -256,7 +256,7 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
 
 void Localizer::resample(const YawEvidence& yaw, float random_share) {
   const ParticleView p = particles();
-  const int fresh = static_cast<int>(random_share * static_cast<float>(p.count));
+  const int fresh = part_of(p.count, random_share);
   resample_low_variance(p, p.count - fresh, scratch_.view(p.count), rng_);
   for (int i = p.count - fresh; i < p.count; ++i) {
     p.set_pose(i, random_pose(yaw));

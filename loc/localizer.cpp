@@ -9,17 +9,38 @@ namespace {
 
 bool in_range(float x, float low, float high) { return math::is_finite(x) && x >= low && x <= high; }
 
+const char* first_bad_key(const MotionNoise& m) {
+  if (!in_range(m.xy_per_metre, 0.0F, 10.0F)) return "motion.xy_per_metre";
+  if (!in_range(m.xy_per_radian, 0.0F, 10.0F)) return "motion.xy_per_radian";
+  if (!in_range(m.theta_per_metre, 0.0F, 10.0F)) return "motion.theta_per_metre";
+  if (!in_range(m.theta_per_radian, 0.0F, 10.0F)) return "motion.theta_per_radian";
+  if (!in_range(m.xy_floor, 0.0F, 1.0F)) return "motion.xy_floor";
+  if (!in_range(m.theta_floor, 0.0F, 1.0F)) return "motion.theta_floor";
+  return nullptr;
+}
+
+const char* first_bad_key(const FeatureManagerConfig& f) {
+  if (!in_range(f.gamma, 1.0F, 1e4F)) return "features.gamma";
+  if (!in_range(f.threshold, 0.0F, 1.0F)) return "features.threshold";
+  if (!in_range(f.gate_m, 0.0F, max_field_length)) return "features.gate_m";
+  if (!in_range(f.validation_gate_m, 0.0F, max_field_length)) return "features.validation_gate_m";
+  if (!in_range(f.base_l, 0.0F, 1.0F)) return "features.base_l";
+  if (!in_range(f.base_t, 0.0F, 1.0F)) return "features.base_t";
+  if (!in_range(f.base_x, 0.0F, 1.0F)) return "features.base_x";
+  if (!in_range(f.base_post, 0.0F, 1.0F)) return "features.base_post";
+  if (!in_range(f.axis_half_angle, radians(1.0F), math::pi)) return "features.axis_half_angle";
+  return nullptr;
+}
+
 /// The first key that is out of range, or null.
 const char* first_bad_key(const LocalizerConfig& c) {
+  if (c.model > LocModel::full) return "model";
+  if (c.landmarks > Landmarks::both) return "landmarks";
   if (c.particles < 10 || c.particles > max_particles) return "particles";
-  if (!in_range(c.motion.xy_per_metre, 0.0F, 10.0F)) return "motion.xy_per_metre";
-  if (!in_range(c.motion.xy_per_radian, 0.0F, 10.0F)) return "motion.xy_per_radian";
-  if (!in_range(c.motion.theta_per_metre, 0.0F, 10.0F)) return "motion.theta_per_metre";
-  if (!in_range(c.motion.theta_per_radian, 0.0F, 10.0F)) return "motion.theta_per_radian";
-  if (!in_range(c.motion.xy_floor, 0.0F, 1.0F)) return "motion.xy_floor";
-  if (!in_range(c.motion.theta_floor, 0.0F, 1.0F)) return "motion.theta_floor";
-  if (!in_range(c.features.gamma, 1.0F, 1e4F)) return "features.gamma";
-  if (!in_range(c.features.threshold, 0.0F, 1.0F)) return "features.threshold";
+  if (const char* bad = first_bad_key(c.motion); bad != nullptr) return bad;
+  if (const char* bad = first_bad_key(c.features); bad != nullptr) return bad;
+  if (!in_range(c.augmented.alpha_slow, 0.0F, 1.0F)) return "augmented.alpha_slow";
+  if (!in_range(c.augmented.alpha_fast, 0.0F, 1.0F)) return "augmented.alpha_fast";
   if (!in_range(c.augmented.random_share, 0.0F, 0.5F)) return "augmented.random_share";
   if (!in_range(c.yaw_sigma, 1e-3F, math::pi)) return "yaw_sigma";
   if (!in_range(c.yaw_drift_rate, 0.0F, 1.0F)) return "yaw_drift_rate";
@@ -28,6 +49,19 @@ const char* first_bad_key(const LocalizerConfig& c) {
   if (!in_range(c.landmark_variance_floor, 1e-4F, 10.0F)) return "landmark_variance_floor";
   if (!in_range(c.confident, 0.0F, 1.0F)) return "confident";
   return nullptr;
+}
+
+bool is_valid(const Prior& p) {
+  return p.kind <= PriorKind::pose && in_range(p.pose.x, -max_step_m, max_step_m) &&
+         in_range(p.pose.y, -max_step_m, max_step_m) && in_range(p.pose.theta, -max_angle, max_angle) &&
+         in_range(p.sigma_xy, 0.0F, max_step_m) && in_range(p.sigma_theta, 0.0F, max_step_rad);
+}
+
+bool is_valid(const LocalizerInput& i) {
+  return in_range(i.odometry.x, -max_step_m, max_step_m) && in_range(i.odometry.y, -max_step_m, max_step_m) &&
+         in_range(i.odometry.theta, -max_step_rad, max_step_rad) && in_range(i.unknown_xy, 0.0F, max_step_m) &&
+         in_range(i.unknown_theta, 0.0F, max_step_rad) && (!i.has_yaw || in_range(i.yaw, -max_angle, max_angle)) &&
+         i.time_s - i.time_s == 0.0;
 }
 
 PoseCovariance grown(PoseCovariance c, const StepSigma& s, float theta) {
@@ -65,7 +99,8 @@ Status Localizer::configure(const LocalizerConfig& config, const Field& field, c
   return Status::ok;
 }
 
-void Localizer::reset(const Prior& prior, std::uint64_t seed) {
+Status Localizer::reset(const Prior& prior, std::uint64_t seed) {
+  if (!is_valid(prior)) return Status::invalid_argument;
   rng_ = Rng(seed);
   features_.clear();
   augmented_.reset();
@@ -76,6 +111,7 @@ void Localizer::reset(const Prior& prior, std::uint64_t seed) {
   belief_ = 0.0F;
   steady_frames_ = 0;
   draw_from_prior(prior);
+  return Status::ok;
 }
 
 /// Another number of particles, or another model of them, while the robot plays.
@@ -111,6 +147,20 @@ void Localizer::draw_from_prior(const Prior& prior) {
   }
 }
 
+void Localizer::forget_place() {
+  draw_from_prior(Prior{});
+  features_.clear();
+  last_ = {};
+}
+
+/// Robots are carried about beside the carpet, but not far from it: there the odometry has lost its way.
+bool Localizer::is_near_field(const PoseEstimate& estimate) const {
+  const float x = math::abs(estimate.pose.x);
+  const float y = math::abs(estimate.pose.y);
+  return x <= field_.half_carpet_length() + max_beside_m && y <= field_.half_carpet_width() + max_beside_m &&
+         math::is_finite(estimate.pose.theta) && math::is_finite(estimate.confidence);
+}
+
 Pose2 Localizer::random_pose(const YawEvidence& yaw) {
   const float theta = yaw.known ? yaw.theta + yaw.sigma * rng_.gaussian() : rng_.uniform(-math::pi, math::pi);
   return {rng_.uniform(-field_.half_carpet_length(), field_.half_carpet_length()),
@@ -132,17 +182,10 @@ void Localizer::predict(const LocalizerInput& input) {
 Status Localizer::update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
                          StageObserver* observer) {
   if (!configured_ || frames_ < 0) return Status::not_ready;
-  if (!math::is_finite(input.odometry.x) || !math::is_finite(input.odometry.y) ||
-      !math::is_finite(input.odometry.theta) || !math::is_finite(input.unknown_xy) ||
-      !math::is_finite(input.unknown_theta) || (input.has_yaw && !math::is_finite(input.yaw)) ||
-      input.time_s - input.time_s != 0.0) {
-    return Status::invalid_argument;
-  }
+  if (!is_valid(input)) return Status::invalid_argument;
   const StageScope scope(observer, Stage::localize);
   if (input.moved_by_hand) {
-    draw_from_prior(Prior{});
-    features_.clear();
-    last_ = {};
+    forget_place();
   } else {
     predict(input);
   }
@@ -154,6 +197,12 @@ Status Localizer::update(const LocalizerInput& input, const VisionResult& vision
     update_full(vision, yaw, estimate);
   } else {
     update_paper(vision, yaw, estimate);
+  }
+  if (estimate.valid && !is_near_field(estimate)) {
+    forget_place();
+    estimate = {};
+    belief_ = 0.0F;
+    steady_frames_ = 0;
   }
   if (input.has_yaw && estimate.valid && estimate.confidence > config_.confident) {
     yaw_.correct(input.yaw, estimate.pose.theta, estimate.covariance.tt, config_.yaw_sigma);

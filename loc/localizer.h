@@ -35,6 +35,13 @@ struct LocalizerInput {
       false;  // fallen or lifted since the update before: the odometry is void, the pose may be anywhere
 };
 
+/// Limits of what one update takes. A robot in no frame for a minute has walked less; a float still tells 1 mm then.
+inline constexpr float max_step_m = 100.0F;    // odometry along x and y each, and unknown_xy
+inline constexpr float max_step_rad = 100.0F;  // odometry's turn, and unknown_theta: 16 turns
+inline constexpr float max_angle = 1.0e4F;     // yaw and a prior's theta: a float still tells a milliradian
+/// A pose farther than this from the carpet is none.
+inline constexpr float max_beside_m = 3.0F;
+
 /// Owns all memory of localization. About 110 KiB, most of it the distance map and the line samples.
 class Localizer {
  public:
@@ -42,8 +49,11 @@ class Localizer {
   /// The first call asks for a reset(); a later one keeps the pose, so that thresholds can change in a match.
   Status configure(const LocalizerConfig& config, const Field& field, const char** what = nullptr);
   /// Forgets the pose and draws the particles from `prior`. The seed is the caller's: the same seed, the same poses.
-  void reset(const Prior& prior, std::uint64_t seed);
-  /// One frame. invalid_argument (NaN in the input), not_ready (not configured or reset): nothing has changed.
+  /// invalid_argument: the prior's pose or spread is not finite, beyond max_step_m, max_step_rad or max_angle, or its
+  /// spread is negative; nothing changes.
+  Status reset(const Prior& prior, std::uint64_t seed);
+  /// One frame. invalid_argument (a number that is not finite or beyond the limits above), not_ready (not configured or
+  /// reset): nothing has changed.
   Status update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
                 StageObserver* observer = nullptr);
 
@@ -65,6 +75,8 @@ class Localizer {
 
   void draw_from_prior(const Prior& prior);
   void draw_around_last();
+  void forget_place();
+  [[nodiscard]] bool is_near_field(const PoseEstimate& estimate) const;
   [[nodiscard]] Pose2 random_pose(const YawEvidence& yaw);
   void predict(const LocalizerInput& input);
   void update_full(const VisionResult& vision, const YawEvidence& yaw, PoseEstimate& estimate);

@@ -58,7 +58,7 @@ void Localizer::update_paper(const VisionResult& /*vision*/, const YawEvidence& 
   const float share = math::max(random_share, augmented_.random_share(config_.augmented));
   resample(yaw, share);
   ParticleView kept = p;
-  cloud_ = p.count - static_cast<int>(share * static_cast<float>(p.count));
+  cloud_ = p.count - part_of(p.count, share);
   kept.count = cloud_;
   roughen(kept, roughening, rng_);
 }

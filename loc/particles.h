@@ -40,7 +40,8 @@ struct ParticleStorage {
   }
 };
 
-/// Subtracts the largest log weight, so that the best particle has 0; returns what was subtracted.
+/// Subtracts the largest log weight, so that the best particle has 0; returns what was subtracted. Weights that are not
+/// finite count as hopeless.
 float normalize_log_weights(ParticleView particles);
 
 }  // namespace touchline

@@ -7,8 +7,15 @@
 
 namespace touchline {
 
+namespace {
+constexpr float hopeless_log_weight = -1.0e6F;
+}  // namespace
+
 float normalize_log_weights(ParticleView particles) {
   if (particles.count == 0) return 0.0F;
+  for (int i = 0; i < particles.count; ++i) {  // one weight that is no number must not make all of them such
+    if (!math::is_finite(particles.log_weight[i])) particles.log_weight[i] = hopeless_log_weight;
+  }
   float best = particles.log_weight[0];
   for (int i = 1; i < particles.count; ++i) best = math::max(best, particles.log_weight[i]);
   for (int i = 0; i < particles.count; ++i) particles.log_weight[i] -= best;
@@ -49,6 +56,10 @@ void resample_low_variance(ParticleView particles, int keep, ParticleView scratc
     particles.set_pose(i, scratch.pose(i));
     particles.log_weight[i] = 0.0F;
   }
+}
+
+int part_of(int count, float share) {
+  return share > 0.0F ? static_cast<int>(math::min(share, 1.0F) * static_cast<float>(count)) : 0;
 }
 
 namespace {

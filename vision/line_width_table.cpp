@@ -25,7 +25,7 @@ float length(float x, float y) { return math::hypot(x, y); }
 
 std::uint16_t quantised(float working_px) {
   const float sixteenths = working_px * 16.0F + 0.5F;
-  return sixteenths >= 65535.0F ? std::uint16_t{65535} : static_cast<std::uint16_t>(sixteenths);
+  return sixteenths < 65535.0F ? static_cast<std::uint16_t>(sixteenths) : std::uint16_t{65535};  // NaN: the most
 }
 
 LineWidth width_of_block(const Vec3 corner[4], const Mat3& rotation, float height, float line_width_m) {

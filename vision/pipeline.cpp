@@ -23,10 +23,12 @@
 namespace touchline {
 namespace {
 
+bool within(float x, float limit) { return x >= -limit && x <= limit; }  // NaN is not
+
 bool is_valid(const CameraPose& pose) {
-  return math::is_finite(pose.x) && math::is_finite(pose.y) && math::is_finite(pose.yaw) &&
-         math::is_finite(pose.pitch) && math::is_finite(pose.roll) && math::is_finite(pose.height) &&
-         pose.height > 0.0F;
+  return within(pose.x, max_camera_reach_m) && within(pose.y, max_camera_reach_m) && pose.height > 0.0F &&
+         pose.height <= max_camera_reach_m && within(pose.yaw, max_camera_angle) &&
+         within(pose.pitch, max_camera_angle) && within(pose.roll, max_camera_angle);
 }
 bool is_valid(const Pose2& pose) {
   return math::is_finite(pose.x) && math::is_finite(pose.y) && math::is_finite(pose.theta);

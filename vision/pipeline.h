@@ -16,6 +16,10 @@
 
 namespace touchline {
 
+/// What a camera's pose may be: in a humanoid robot, or held up for a test; angles of some turns.
+inline constexpr float max_camera_reach_m = 10.0F;
+inline constexpr float max_camera_angle = 100.0F;  // radians
+
 struct FrameInput {
   FrameView image;
   double time_s = 0.0;
@@ -31,8 +35,9 @@ class Pipeline {
 
   /// Checks config against the storage; on failure the old configuration stays and `what` names the key, when not null.
   Status configure(const VisionConfig& config, const Lens& lens, const char** what = nullptr);
-  /// Runs the chain on one frame. wrong_size, invalid_argument (NaN, height <= 0), not_ready (not configured):
-  /// nothing has changed. `result` refers into the storage and is valid until the next call.
+  /// Runs the chain on one frame. wrong_size, invalid_argument (a number that is not finite, a height <= 0, a camera
+  /// beyond the limits above), not_ready (not configured): nothing has changed. `result` refers into the storage and is
+  /// valid until the next call.
   Status process(const FrameInput& input, VisionResult& result, StageObserver* observer = nullptr);
   /// After a fall or a reset: empties the FIFO.
   void reset();

@@ -14,6 +14,8 @@
 
 namespace touchline {
 
+/// Of a point of a body mask: it may lie outside of the picture, but not without measure.
+inline constexpr float max_mask_coordinate_px = 10000.0F;
 inline constexpr std::size_t max_mask_polygons = 4;         // two feet, two hands
 inline constexpr std::size_t max_mask_polygon_points = 12;  // enough for a foot's outline
 using MaskPolygon = StaticVector<PixelPoint, max_mask_polygon_points>;

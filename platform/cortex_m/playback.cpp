@@ -51,7 +51,7 @@ bool configure(const Recording& recording, Chain& chain) {
   config.post_diameter_m = dimensions->post_diameter;
   const char* key = "vision";
   if (refused(key, chain.pipeline.configure(config, lens, &key))) return false;
-  chain.localizer.reset(Prior{}, seed);
+  (void)chain.localizer.reset(Prior{}, seed);
   return true;
 }
 

@@ -75,7 +75,7 @@ Chain::~Chain() = default;
 
 void Chain::forget(std::uint64_t seed) {
   parts_->pipeline.reset();
-  parts_->localizer.reset(Prior{}, seed);
+  (void)parts_->localizer.reset(Prior{}, seed);
 }
 
 const VisionResult& Chain::see(const FrameView& image, double time_s, const CameraSetup& camera, const Pose2& odometry,

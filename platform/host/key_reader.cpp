@@ -208,7 +208,7 @@ std::vector<std::string> KeyReader::texts(const char* key) {
   return out;
 }
 
-std::vector<std::vector<double>> KeyReader::lists(const char* key) {
+std::vector<std::vector<double>> KeyReader::lists(const char* key, double most) {
   std::vector<std::vector<double>> out;
   const auto* value = find(key);
   if (value == nullptr) return out;
@@ -216,7 +216,7 @@ std::vector<std::vector<double>> KeyReader::lists(const char* key) {
   for (const auto& entry : *value) {
     if (!entry.is_array()) fail(key, "holds " + shown(entry) + "; write a list of lists of numbers");
     out.emplace_back();
-    for (const auto& element : entry) out.back().push_back(checked(key, element, {-1e12, 1e12}));
+    for (const auto& element : entry) out.back().push_back(checked(key, element, {-most, most}));
   }
   return out;
 }

@@ -72,8 +72,8 @@ class KeyReader {
   /// Empty when the key is missing; else as many as said.
   std::vector<double> numbers(const char* key, std::size_t min_count, std::size_t max_count);
   std::vector<std::string> texts(const char* key);
-  /// One list of numbers per entry.
-  std::vector<std::vector<double>> lists(const char* key);
+  /// One list of numbers per entry, each from -`most` to `most`.
+  std::vector<std::vector<double>> lists(const char* key, double most);
   /// An empty table when the key is missing.
   const nlohmann::json& table(const char* key);
   KeyReader inner(const char* key);

@@ -26,7 +26,7 @@ void RobotLoop::on_button(ButtonPress press, MonotonicNs now) {
   if (press == ButtonPress::long_press) {
     lose_pose();
     moved_by_hand_ = false;  // the reset below says it all
-    localizer_.reset(Prior{}, config_.seed + ++resets_);
+    (void)localizer_.reset(Prior{}, config_.seed + ++resets_);
     return;
   }
   float yaw = 0.0F;

@@ -41,8 +41,7 @@ Status RobotLoop::configure(const RobotConfig& config, const char** what) {
   sensors_.configure(config);
   goal_yaw_known_ = config.goal_yaw_known;
   goal_yaw_ = config.goal_yaw;
-  localizer_.reset(config.prior, config.seed);
-  return Status::ok;
+  return localizer_.reset(config.prior, config.seed);
 }
 
 Status RobotLoop::turn(RobotReport& report, StageObserver* observer) {
@@ -133,6 +132,10 @@ Status RobotLoop::localize(MonotonicNs time, RobotReport& report, StageObserver*
   input.has_yaw = goal_yaw_known_ && sensors_.yaw_at(time, yaw);
   if (input.has_yaw) input.yaw = wrap_angle(yaw - goal_yaw_);
   input.moved_by_hand = moved_by_hand_;
+  if (math::hypot(input.odometry.x, input.odometry.y) > max_step_m) {  // minutes without a frame: the path is void
+    input.odometry = {};
+    input.moved_by_hand = true;
+  }
   const Status status = localizer_.update(input, vision_, estimate_, observer);
   if (status != Status::ok) return status;
   moved_by_hand_ = false;

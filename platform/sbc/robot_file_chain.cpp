@@ -15,12 +15,14 @@ HsvRange read_range(KeyReader& table, const char* key, const HsvRange& fallback)
   for (const double value : v) {
     if (value < 0.0 || value > 255.0) table.fail(key, "holds a number outside 0 to 255; hue counts 0 to 179");
   }
+  if (v[0] > 179.0 || v[1] > 179.0) table.fail(key, "has a hue above 179; hue counts 0 to 179, 2 degrees a step");
+  if (v[2] > v[3] || v[4] > v[5]) table.fail(key, "has a low bound above the high one; write h, h, s, s, v, v");
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(v[i]); };
   return {byte(0), byte(1), byte(2), byte(3), byte(4), byte(5)};
 }
 
 void read_body_mask(KeyReader& table, VisionConfig& vision) {
-  const auto polygons = table.lists("body_mask_px");
+  const auto polygons = table.lists("body_mask_px", static_cast<double>(max_mask_coordinate_px));
   if (polygons.size() > max_mask_polygons) {
     table.fail("body_mask_px", "has more than " + std::to_string(max_mask_polygons) + " polygons");
   }

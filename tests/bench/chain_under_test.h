@@ -43,7 +43,7 @@ struct ChainUnderTest {
     LocalizerConfig localizer_config;
     localizer_config.particles = particles;
     require(localizer.configure(localizer_config, field), "localizer");
-    localizer.reset(Prior{}, 1);
+    (void)localizer.reset(Prior{}, 1);
   }
   void see(const FrameView& image, const CameraPose& mount, double time_s, StageObserver* observer = nullptr) {
     require(pipeline.process({image, time_s, mount, Pose2{}}, vision, observer), "frame");

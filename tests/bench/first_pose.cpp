@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
       localizer.configure(LocalizerConfig{}, field) != Status::ok) {
     return 1;
   }
-  localizer.reset(Prior{}, 1);
+  (void)localizer.reset(Prior{}, 1);
   VisionResult seen;
   PoseEstimate estimate;
   const CameraPose camera{.height = 0.58F, .pitch = radians(30.0F)};

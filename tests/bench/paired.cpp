@@ -113,7 +113,7 @@ class PairedRun {
   /// The search for the first pose, on a single shot.
   void first_pose(const View& view) {
     chain_->pipeline.reset();
-    chain_->localizer.reset(Prior{}, 1);
+    (void)chain_->localizer.reset(Prior{}, 1);
     first_pose_.push_back(timed([&] {
       chain_->see(pool_.frame(view, 0), view.mount, 0.0);
       (void)chain_->locate(view, 0.0);

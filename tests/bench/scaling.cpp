@@ -96,7 +96,7 @@ void time_localizer(benchmark::State& state, const FramePool& pool, int particle
     for (int i = 0; i < 10; ++i) step();
   }
   for (auto _ : state) {
-    if (!tracking) localizer->reset(Prior{}, 1);
+    if (!tracking) (void)localizer->reset(Prior{}, 1);
     step();
   }
   state.counters["junctions"] = static_cast<double>(seen.features.junctions.size());

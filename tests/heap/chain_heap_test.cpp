@@ -52,7 +52,7 @@ struct Robot {
     loc.model = model;
     loc.landmarks = Landmarks::both;
     REQUIRE(localizer->configure(loc, field) == Status::ok);
-    localizer->reset({}, 1);
+    (void)localizer->reset({}, 1);
   }
 };
 
@@ -77,7 +77,7 @@ Outcome walk(Robot& robot, int frames) {
     const double time_s = i / 12.0;
     if (i % 250 == 249) {  // a fall
       robot.pipeline.reset();
-      robot.localizer->reset({}, static_cast<std::uint64_t>(i));
+      (void)robot.localizer->reset({}, static_cast<std::uint64_t>(i));
     }
     const FrameView image{PixelFormat::rgb24, robot.images[now].data(), width, height, width * 3};
     if (robot.pipeline.process({image, time_s, robot.camera, step}, vision) != Status::ok) ++outcome.failures;

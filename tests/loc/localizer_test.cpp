@@ -38,7 +38,7 @@ struct Robot {
   }
   void start(const Prior& prior = {}) {
     REQUIRE(localizer->configure(config, field) == Status::ok);
-    localizer->reset(prior, 77);
+    REQUIRE(localizer->reset(prior, 77) == Status::ok);
   }
   void frame(const Pose2& step = {}, float yaw_error = 0.0F) {
     truth = compose(truth, step);
@@ -186,7 +186,7 @@ TEST_CASE("the same seed gives the same poses, another seed others") {
   }
   CHECK(a.estimate.pose.x == b.estimate.pose.x);
   CHECK(a.localizer->particles().x[100] == b.localizer->particles().x[100]);
-  b.localizer->reset({}, 78);
+  (void)b.localizer->reset({}, 78);
   CHECK(a.localizer->particles().x[100] != b.localizer->particles().x[100]);
 }
 

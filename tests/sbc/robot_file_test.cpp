@@ -146,6 +146,10 @@ TEST_CASE("impossible values are told with the range") {
   CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 2, 3]\n"), "has 3 entries; write 6 numbers"));
   CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 2, 3, 4, 5, 256]\n"), "outside 0 to 255"));
   CHECK(contains(error_of("[vision]\nbody_mask_px = [[1, 2, 3]]\n"), "polygon of 3 numbers"));
+  CHECK(
+      contains(error_of("[vision]\nbody_mask_px = [[1, 2, 3, 4, 1e12, 6]]\n"), "is 1000000000000, outside -10000 to"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 180, 3, 4, 5, 6]\n"), "hue counts 0 to 179"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [1, 20, 30, 4, 5, 6]\n"), "low bound above the high one"));
   CHECK(contains(error_of("[lens]\nmodel = \"fisheye\"\n"), "is not known; known are"));
   CHECK(contains(error_of("[lens]\nmodel = \"equidistance\"\n"), "did you mean equidistant?"));
   CHECK(contains(error_of("[field]\nlength_m = 0.0\n"), ":2: [field] length_m: does not fit the rest of the field"));

@@ -52,7 +52,7 @@ struct Chain {
     LocalizerConfig loc;
     loc.landmarks = Landmarks::both;
     REQUIRE(localizer.configure(loc, field) == Status::ok);
-    localizer.reset({}, 1);
+    (void)localizer.reset({}, 1);
     const GroundProjection projection(lens, camera);
     for (int i = 0; i < 4; ++i) {
       frames.emplace_back(static_cast<std::size_t>(width * height * 3));

@@ -16,10 +16,9 @@ int main() {
   const LensParameters fisheye{.focal_px = 232.9F, .cx = 376.0F, .cy = 240.0F, .max_theta = radians(92.5F)};
   if (Lens::create(fisheye, lens) != Status::ok || Field::create(*field_preset("small-2026"), field) != Status::ok ||
       pipeline.configure(VisionConfig{}, lens) != Status::ok ||
-      localizer.configure(LocalizerConfig{}, field) != Status::ok) {
+      localizer.configure(LocalizerConfig{}, field) != Status::ok || localizer.reset(Prior{}, 1) != Status::ok) {
     return 1;
   }
-  localizer.reset(Prior{}, 1);
 
   VisionResult seen;
   PoseEstimate estimate;
