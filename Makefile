@@ -28,7 +28,9 @@ build: $(BUILD)/CMakeCache.txt  ## the library, the command line and the tests
 demo: build  ## a simulated robot finds and follows its place; pictures go to demo/
 	@$(TOUCHLINE) demo --output demo
 
-run: build  ## the robot daemon on recorded devices: one JSON line per pose
+run:  ## the robot daemon on recorded devices: one JSON line per pose
+	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt >&2
+	@cmake --build $(BUILD) --parallel $(JOBS) --target touchline >&2
 	@$(TOUCHLINE) run fixtures/robot-replay.toml
 
 test: build  ## all tests

@@ -2,7 +2,24 @@
 /* The gait frame, version 1: the whole sending side for a walking controller, in C99 without dependencies.
  *
  * Copy this one file into the firmware. Fill a `touchline_gait`, call touchline_gait_encode() once a control cycle and
- * write the bytes it returns to the serial port. 44 bytes a frame: 100 frames a second take 38 % of 115200 baud.
+ * write the bytes it returns to the serial port:
+ *
+ *   static touchline_gait gait;  // zeros; gait.boot_id is set once, after the start
+ *   uint8_t frame[TOUCHLINE_GAIT_FRAME_BYTES];
+ *   gait.flags = TOUCHLINE_GAIT_WALKING | TOUCHLINE_GAIT_HAS_CAMERA, gait.time_us = micros(), ++gait.sequence;
+ *   gait.x_m = x, gait.y_m = y, gait.theta_rad = theta, gait.camera_height_m = height, gait.camera_pitch_rad = pitch;
+ *   uart_write(frame, touchline_gait_encode(&gait, frame));
+ *
+ * The line: 8 data bits, no parity, 1 stop bit, no flow control, one direction; the same rate as `gait.baud` of
+ * robot.toml, 115200 by default (a USB serial port ignores the rate). 44 bytes a frame: 100 frames a second take 38 %
+ * of 115200 baud. How often: 50 to 200 frames a second, in even steps. Between frames the path is interpolated, after
+ * the newest it is unknown; a head that sways wants 50. A pause longer than `gait.stale_ms` (300 ms) is silence, and
+ * below 4 frames a second there is nothing else.
+ *
+ * What the receiver does with it: the odometry moves the pose; camera attitude or head joints take the place of those
+ * of [mount]; fallen and lifted give the pose up and start from nothing when they end. Walking, standing and the
+ * support foot are checked and handed to programs that read the link (hal/gait_link.h); touchline itself does not use
+ * them yet.
  *
  *   frame on the wire = COBS(payload, CRC-32 of the payload) followed by one zero byte
  *   COBS: Cheshire and Baker, "Consistent Overhead Byte Stuffing", 1999; no zero byte is left inside a frame
@@ -34,6 +51,13 @@
 #define TOUCHLINE_GAIT_H
 
 #include <stdint.h>
+
+/* C++ firmware may forbid the casts of C. */
+#ifdef __cplusplus
+#define TOUCHLINE_GAIT_AS(type, value) static_cast<type>(value)
+#else
+#define TOUCHLINE_GAIT_AS(type, value) ((type)(value))
+#endif
 
 #define TOUCHLINE_GAIT_VERSION 1u
 #define TOUCHLINE_GAIT_PAYLOAD_BYTES 38u
@@ -69,16 +93,20 @@ typedef struct touchline_gait {
 
 static inline uint8_t* touchline_gait_put(uint8_t* at, uint32_t value, int bytes) {
   int i;
-  for (i = 0; i < bytes; ++i) *at++ = (uint8_t)(value >> (8 * i));
+  for (i = 0; i < bytes; ++i) *at++ = TOUCHLINE_GAIT_AS(uint8_t, value >> (8 * i));
   return at;
 }
 
 /* Rounded to the nearest whole number and kept within [low, high]; NaN gives 0. */
 static inline int32_t touchline_gait_round(float scaled, int32_t low, int32_t high) {
-  if (scaled >= (float)high) return high;
-  if (scaled <= (float)low) return low;
+  if (scaled >= TOUCHLINE_GAIT_AS(float, high)) return high;
+  if (scaled <= TOUCHLINE_GAIT_AS(float, low)) return low;
   if (!(scaled == scaled)) return 0;
-  return (int32_t)(scaled < 0.0f ? scaled - 0.5f : scaled + 0.5f);
+  return TOUCHLINE_GAIT_AS(int32_t, scaled < 0.0f ? scaled - 0.5f : scaled + 0.5f);
+}
+
+static inline uint8_t* touchline_gait_put_number(uint8_t* at, float scaled, int32_t low, int32_t high, int bytes) {
+  return touchline_gait_put(at, TOUCHLINE_GAIT_AS(uint32_t, touchline_gait_round(scaled, low, high)), bytes);
 }
 
 static inline uint32_t touchline_gait_crc32(const uint8_t* bytes, uint32_t size) {
@@ -101,21 +129,21 @@ static inline uint32_t touchline_gait_encode(const touchline_gait* gait, uint8_t
   uint8_t* at = payload;
   uint8_t* code = frame;
   int i;
-  *at++ = (uint8_t)TOUCHLINE_GAIT_VERSION;
-  *at++ = (uint8_t)(gait->flags & 0x3Fu);
-  *at++ = (uint8_t)(gait->support_foot & 0x03u);
+  *at++ = TOUCHLINE_GAIT_AS(uint8_t, TOUCHLINE_GAIT_VERSION);
+  *at++ = TOUCHLINE_GAIT_AS(uint8_t, gait->flags & 0x3Fu);
+  *at++ = TOUCHLINE_GAIT_AS(uint8_t, gait->support_foot & 0x03u);
   *at++ = 0;
   at = touchline_gait_put(at, gait->boot_id, 4);
   at = touchline_gait_put(at, gait->sequence, 4);
   at = touchline_gait_put(at, gait->time_us, 4);
-  for (i = 0; i < 3; ++i) at = touchline_gait_put(at, (uint32_t)touchline_gait_round(wide[i], INT32_MIN, INT32_MAX), 4);
-  at = touchline_gait_put(at, (uint32_t)touchline_gait_round(gait->camera_height_m * 1e4f, 0, 65535), 2);
-  for (i = 0; i < 4; ++i) at = touchline_gait_put(at, (uint32_t)touchline_gait_round(narrow[i], -32768, 32767), 2);
+  for (i = 0; i < 3; ++i) at = touchline_gait_put_number(at, wide[i], INT32_MIN, INT32_MAX, 4);
+  at = touchline_gait_put_number(at, gait->camera_height_m * 1e4f, 0, 65535, 2);
+  for (i = 0; i < 4; ++i) at = touchline_gait_put_number(at, narrow[i], -32768, 32767, 2);
   at = touchline_gait_put(at, touchline_gait_crc32(payload, TOUCHLINE_GAIT_PAYLOAD_BYTES), 4);
   *at = 0;
   for (at = payload; at < frame + TOUCHLINE_GAIT_FRAME_BYTES; ++at) {
     if (*at == 0) {
-      *code = (uint8_t)(at - code);
+      *code = TOUCHLINE_GAIT_AS(uint8_t, at - code);
       code = at;
     }
   }

@@ -9,6 +9,15 @@ place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
 "$cmake" --install "$build" --prefix "$place/first" >"$place/install.log" || { cat "$place/install.log"; exit 1; }
+# The unit names the program where it was installed, wherever that is; DESTDIR is a way station.
+unit_names() {  # unit_names UNIT PATH
+  [ "$(grep -c "^ExecStart\(Pre\)\?=$2/bin/touchline " "$1")" = 2 ] || { echo "$1 does not name $2/bin/touchline:"; grep ^Exec "$1"; exit 1; }
+}
+if [ -e "$place/first/bin/touchline" ] && [ -e "$place/first/lib/systemd" ]; then
+  unit_names "$place/first/lib/systemd/system/touchline.service" "$place/first"
+  DESTDIR="$place/root" "$cmake" --install "$build" --prefix /opt/robot >>"$place/install.log"
+  unit_names "$place/root/opt/robot/lib/systemd/system/touchline.service" /opt/robot
+fi
 mv "$place/first" "$place/prefix"
 
 "$cmake" -S "$user" -B "$place/user" -DCMAKE_PREFIX_PATH="$place/prefix" -DCMAKE_CXX_COMPILER="$cxx" \
