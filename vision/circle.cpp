@@ -109,22 +109,28 @@ void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
 
 /// The place with most votes; those of places that were tried before do not count.
 bool CircleFinder::best_vote(GroundPoint& centre) const {
-  const float gather = vote_gather_radii * parameters_.radius_m;
+  const float squared = math::square(vote_gather_radii * parameters_.radius_m);
+  const auto near = [squared](const GroundPoint& v, const GroundPoint& w) {
+    return math::square(v.x - w.x) + math::square(v.y - w.y) <= squared;
+  };
+  const GroundPoint* best = nullptr;
   int most = 1;
   for (const GroundPoint& v : work_.votes) {
     int count = 0;
-    GroundPoint sum;
-    for (const GroundPoint& w : work_.votes) {
-      if (math::square(v.x - w.x) + math::square(v.y - w.y) > gather * gather) continue;
-      ++count;
-      sum.x += w.x;
-      sum.y += w.y;
-    }
+    for (const GroundPoint& w : work_.votes) count += near(v, w) ? 1 : 0;  // no branch: this loop is most of the time
     if (count <= most) continue;
     most = count;
-    centre = {sum.x / static_cast<float>(count), sum.y / static_cast<float>(count)};
+    best = &v;
   }
-  return most > 1;
+  if (best == nullptr) return false;
+  GroundPoint sum;
+  for (const GroundPoint& w : work_.votes) {
+    if (!near(*best, w)) continue;
+    sum.x += w.x;
+    sum.y += w.y;
+  }
+  centre = {sum.x / static_cast<float>(most), sum.y / static_cast<float>(most)};
+  return true;
 }
 
 /// Of a skeleton point, across the circle: what a pixel means in that direction, and the rag of a wide line.
@@ -144,6 +150,11 @@ float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre) const
 }
 
 bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const {
+  // Most points are far from the circle: a square tells before a root does. Its bounds are a little wider.
+  const float squared = math::square(p.x - centre.x) + math::square(p.y - centre.y);
+  if (squared > math::square(1.41F * parameters_.radius_m) || squared < math::square(0.59F * parameters_.radius_m)) {
+    return false;
+  }
   off = distance(p, centre) - parameters_.radius_m;
   if (math::abs(off) > 0.4F * parameters_.radius_m) return false;
   sigma_m = sigma(p, centre);

@@ -76,14 +76,6 @@ bool SkeletonIndex::build(ConstBitView skeleton) {
   return true;
 }
 
-PixelIndex SkeletonIndex::at(int x, int y) const {
-  if (y < first_row_ || !skeleton_.get(x, y)) return no_pixel;
-  const int w = x / bits_per_word;
-  const BitWord below = (BitWord{1} << (x % bits_per_word)) - 1;
-  const int before = memory_.pixels_before[static_cast<std::size_t>(y * words_for(skeleton_.width) + w)];
-  return static_cast<PixelIndex>(before + bits_set(skeleton_.row(y)[w] & below));
-}
-
 unsigned SkeletonIndex::three(int x, int y) const {
   if (y < first_row_ || y >= skeleton_.height) return 0;
   const BitWord* row = skeleton_.row(y);

@@ -8,6 +8,7 @@
 
 #include "vision/graph.h"
 #include "vision/image/bit_image.h"
+#include "vision/image/bit_ops.h"
 
 namespace touchline {
 
@@ -56,6 +57,14 @@ class SkeletonIndex {
   int size_ = 0;
   int dropped_ = 0;
 };
+
+inline PixelIndex SkeletonIndex::at(int x, int y) const {
+  if (y < first_row_ || !skeleton_.get(x, y)) return no_pixel;
+  const int w = x / bits_per_word;
+  const BitWord below = (BitWord{1} << (x % bits_per_word)) - 1;
+  const int before = memory_.pixels_before[static_cast<std::size_t>(y * words_for(skeleton_.width) + w)];
+  return static_cast<PixelIndex>(before + bits_set(skeleton_.row(y)[w] & below));
+}
 
 /// Of eight neighbours, those that a walk steps to: a diagonal neighbour is left out when a straight one touches both
 /// it and the pixel. So a corner of a staircase has two ways on and not three ("mixed adjacency", Rosenfeld & Kak).
