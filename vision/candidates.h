@@ -11,6 +11,7 @@
 #include "vision/image/bit_image.h"
 #include "vision/image/canny.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 #include "vision/line_width_table.h"
 
 namespace touchline {
@@ -43,6 +44,7 @@ struct EdgeInput {
   ConstBitView green;
   ConstBitView white;
   LineWidthView widths;
+  Kernels kernels = portable_kernels();
 };
 
 /// Adds to `lines` the edges that bound a line, and the white between them. Counts the others by reason. Returns how

@@ -22,19 +22,35 @@ constexpr int with_tolerance(int sixteenths) { return (sixteenths * 5 / 4 + 40) 
 /// the extent sqrt(across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2): |J e| of
 /// line_width_table.h, with the worse of both diagonals for the mixed term. `across` is the table's extent along the
 /// scan, `other_across` that along the other axis.
+class ExtentBySlope {
+ public:
+  constexpr ExtentBySlope(int length, std::uint16_t across, std::uint16_t other_across, std::uint16_t slanted)
+      : a_(std::int64_t{across} * across),
+        b_(std::int64_t{other_across} * other_across),
+        mixed_(std::max<std::int64_t>(std::int64_t{slanted} * slanted - a_ - b_, 0)) {
+    const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
+    least2_ = least * least;
+  }
+  /// Most lengths are decided without the slope, which takes divisions: the extent grows with it.
+  [[nodiscard]] constexpr bool never_wider() const { return least2_ <= 25 * a_; }
+  [[nodiscard]] constexpr bool always_wider() const { return least2_ > 25 * (a_ + mixed_ + b_); }
+  [[nodiscard]] constexpr bool wider_at(int rise, int run) const {
+    const std::int64_t n = rise;
+    const std::int64_t d = std::max(run, 1);
+    const std::int64_t extent2 = a_ + mixed_ * n / d + b_ * n * n / (d * d);  // 2^-8 square pixels
+    return least2_ > 25 * extent2;
+  }
+
+ private:
+  std::int64_t a_, b_, mixed_;
+  std::int64_t least2_ = 0;
+};
+
 constexpr bool wider_than_slope_allows(int length, int rise, int run, std::uint16_t across, std::uint16_t other_across,
                                        std::uint16_t slanted) {
-  const std::int64_t a = std::int64_t{across} * across;
-  const std::int64_t b = std::int64_t{other_across} * other_across;
-  const std::int64_t mixed = std::max<std::int64_t>(std::int64_t{slanted} * slanted - a - b, 0);
-  const std::int64_t least = std::max(length * 16 - 40, 0) * std::int64_t{4};  // length <= 5/4 extent + 40/16
-  // Most are decided without the slope, which takes divisions: the extent grows with it.
-  if (least * least <= 25 * a) return false;
-  if (least * least > 25 * (a + mixed + b)) return true;
-  const std::int64_t n = rise;
-  const std::int64_t d = std::max(run, 1);
-  const std::int64_t extent2 = a + mixed * n / d + b * n * n / (d * d);  // 2^-8 square pixels
-  return least * least > 25 * extent2;
+  const ExtentBySlope extent(length, across, other_across, slanted);
+  if (extent.never_wider()) return false;
+  return extent.always_wider() || extent.wider_at(rise, run);
 }
 
 }  // namespace touchline

@@ -2,9 +2,12 @@
 #include "vision/line_mask.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/half_level_loops.h"
 #include "vision/image/morphology.h"
 #include "vision/image/vector_registers.h"
 #include "vision/image/word_lanes.h"
@@ -12,61 +15,18 @@
 namespace touchline {
 namespace {
 
-/// border = pixels of `mask` that lack a neighbour in their row or column.
-void border_of(ConstBitView mask, BitView border) {
-  const int words = words_for(mask.width);
-  for (int y = 0; y < mask.height; ++y) {
-    const BitWord* row = mask.row(y);
-    for (int i = 0; i < words; ++i) {
-      BitWord inner = row[i] << 1 | (i > 0 ? row[i - 1] >> (bits_per_word - 1) : 0);
-      inner &= row[i] >> 1 | (i + 1 < words ? row[i + 1] << (bits_per_word - 1) : 0);
-      inner &= y > 0 ? mask.row(y - 1)[i] : 0;
-      inner &= y + 1 < mask.height ? mask.row(y + 1)[i] : 0;
-      border.row(y)[i] = row[i] & ~inner;
-    }
-  }
-}
+/// The neighbours of a word in its row; zero beyond.
+BitWord word_before(const BitWord* row, int i) { return i > 0 ? row[i - 1] : 0; }
+BitWord word_after(const BitWord* row, int i, int words) { return i + 1 < words ? row[i + 1] : 0; }
 
-/// Whether a luma is below the middle between the darkest and the brightest within two pixels, where sixteen bytes from
-/// two pixels to the left on lie inside the row.
-bool wide_below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
-  using U8x16 = std::uint8_t __attribute__((vector_size(16)));
-  const auto load = [](const std::uint8_t* from) {
-    U8x16 v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-  };
-  const std::uint8_t* corner = luma.row(y - 2) + x - 2;
-  U8x16 least = load(corner);
-  U8x16 most = least;
-  for (int k = 1; k < 5; ++k) {
-    const U8x16 row = load(corner + k * luma.stride);
-    least = row < least ? row : least;
-    most = row > most ? row : most;
-  }
-  std::uint64_t least_bytes = 0;
-  std::uint64_t most_bytes = 0;
-  std::memcpy(&least_bytes, &least, sizeof least_bytes);
-  std::memcpy(&most_bytes, &most, sizeof most_bytes);
-  int darkest = 255;
-  int brightest = 0;
-  for (int k = 0; k < 5; ++k) {
-    darkest = std::min(darkest, static_cast<int>((least_bytes >> (8 * k)) & 0xFFU));
-    brightest = std::max(brightest, static_cast<int>((most_bytes >> (8 * k)) & 0xFFU));
-  }
-  return 2 * luma.at(x, y) < darkest + brightest;
-}
-
-/// The same where two pixels to every side lie inside.
+/// Whether a luma is below the middle between the darkest and the brightest within two pixels, where two pixels to
+/// every side lie inside.
 bool inner_below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
   const auto load = [](const std::uint8_t* from) {
     std::uint32_t word = 0;
     std::memcpy(&word, from, sizeof word);
     return word;
   };
-  if constexpr (vector_registers) {
-    if (x + 14 <= luma.width) return wide_below_half_level(luma, x, y);
-  }
   // Five pixels of a row as two words of four.
   const std::uint8_t* left = luma.row(y - 2) + x - 2;
   std::uint32_t least = load(left);
@@ -98,6 +58,53 @@ bool below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
   return 2 * luma.at(x, y) < darkest + brightest;
 }
 
+/// Of 64 pixels from x0 on the `wanted` ones below half level.
+BitWord below_half_level(ImageView<const std::uint8_t> luma, int x0, int y, BitWord wanted) {
+  constexpr int group_px = 16;
+  BitWord below = 0;
+  if constexpr (vector_registers) {
+    if (y >= 2 && y + 2 < luma.height) {
+      for (int i = 0; i < bits_per_word; i += group_px) {
+        const BitWord group = wanted & BitWord{0xFFFF} << i;
+        if (group == 0 || x0 + i < 2 || x0 + i + group_px + 2 > luma.width) continue;
+        below |= group & BitWord{half_level::sixteen_below(luma, x0 + i, y)} << i;
+        wanted &= ~group;
+      }
+    }
+  }
+  for_each_bit(wanted, [&](int bit) {
+    if (below_half_level(luma, x0 + bit, y)) below |= BitWord{1} << bit;
+  });
+  return below;
+}
+
+/// One pass over the border: pixels that lack a neighbour in their row or column. What was `tested` before stays, and
+/// what is tested now and stays is added to it.
+void trim_border(ImageView<const std::uint8_t> luma, BitView lines, BitView tested) {
+  using Row = std::array<BitWord, words_for(max_mask_width)>;
+  const int words = words_for(lines.width);
+  const auto copy_row = [&](int y, Row& row) { std::copy_n(lines.row(y), words, row.begin()); };
+  Row rows[2] = {};  // the one above, and this one, as they were before
+  for (int y = 0; y < lines.height; ++y) {
+    const Row& above = rows[(y + 1) % 2];
+    Row& here = rows[y % 2];
+    copy_row(y, here);
+    for (int i = 0; i < words; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const BitWord word = here[at];
+      if (word == 0) continue;
+      BitWord inner = word << 1 | word_before(here.data(), i) >> (bits_per_word - 1);
+      inner &= word >> 1 | word_after(here.data(), i, words) << (bits_per_word - 1);
+      inner &= above[at];
+      inner &= y + 1 < lines.height ? lines.row(y + 1)[i] : 0;
+      const BitWord border = word & ~inner & ~tested.row(y)[i];
+      if (border == 0) continue;
+      lines.row(y)[i] &= ~below_half_level(luma, i * bits_per_word, y, border);
+      tested.row(y)[i] |= border;
+    }
+  }
+}
+
 /// The widest line of a row of blocks.
 int widest(LineWidthView widths, int block_y) {
   std::uint16_t most = 0;
@@ -108,12 +115,9 @@ int widest(LineWidthView widths, int block_y) {
 }  // namespace
 
 void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch) {
-  for (int pass = 0; pass < 2; ++pass) {
-    border_of(lines, scratch);
-    for_each_set_bit(scratch, [&](int x, int y) {
-      if (below_half_level(luma, x, y)) lines.set(x, y, false);
-    });
-  }
+  assert(lines.width <= max_mask_width);
+  clear(scratch);
+  for (int pass = 0; pass < 2; ++pass) trim_border(luma, lines, scratch);
 }
 
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch) {

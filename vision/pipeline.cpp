@@ -177,10 +177,10 @@ void Pipeline::find_candidates(VisionResult& result) {
   find_edge_zone(views_.mask(MaskId::white), views_.mask(MaskId::green), near_lines);
   and_with(near_lines, roi);
   const GrowResult grown = find_edges(result.mean.y, near_lines, edge_thresholds(carpet_), memory_.canny,
-                                      views_.mask(MaskId::scratch), edges);
+                                      views_.mask(MaskId::scratch), edges, config_.kernels);
   if (!grown.finished) ++result.counts.dropped_edge_seeds;
-  const EdgeInput input{result.mean.y, edges, views_.mask(MaskId::green), views_.mask(MaskId::white),
-                        result.line_widths};
+  const EdgeInput input{result.mean.y,      edges,          views_.mask(MaskId::green), views_.mask(MaskId::white),
+                        result.line_widths, config_.kernels};
   add_line_edges(input, candidates, result.counts.rejected_candidates);
   and_with(candidates, roi);
   result.edges = edges;

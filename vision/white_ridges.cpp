@@ -36,7 +36,7 @@ Reaches reaches_for(std::uint16_t across, std::uint16_t slanted) {
 }
 
 /// Eight rows of eight bits of a mask from (x, y) on, wherever that is: bit 8 y + x; zero beyond the image.
-BitWord block_bits(ConstBitView mask, int x, int y) {
+BitWord border_block_bits(ConstBitView mask, int x, int y) {
   if (x <= -8 || x >= mask.width) return 0;
   const int byte = x < 0 ? -1 : x / 8;
   const int shift = x - 8 * byte;
@@ -54,6 +54,20 @@ BitWord block_bits(ConstBitView mask, int x, int y) {
   BitWord all = 0;
   std::memcpy(&all, rows, sizeof all);
   return all;
+}
+BitWord block_bits(ConstBitView mask, int x, int y) {
+  const int byte = static_cast<int>(static_cast<unsigned>(x) / 8U);
+  const auto row_bytes = mask.stride * static_cast<int>(sizeof(BitWord));
+  if (x < 0 || byte + 1 >= row_bytes || y < 0 || y + ridge_block_px > mask.height) return border_block_bits(mask, x, y);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(mask.row(y)) + byte;
+  const unsigned shift = static_cast<unsigned>(x) % 8U;
+  std::uint32_t halves[2] = {};
+  for (int r = 0; r < ridge_block_px; ++r, bytes += row_bytes) {
+    std::uint16_t two = 0;
+    std::memcpy(&two, bytes, sizeof two);
+    halves[r / 4] |= static_cast<std::uint32_t>(two >> shift & 0xFFU) << (r % 4 * 8);
+  }
+  return BitWord{halves[0]} | BitWord{halves[1]} << 32;
 }
 /// x and y are multiples of eight.
 void add_block(BitView mask, int x, int y, BitWord bits) {
@@ -101,7 +115,8 @@ class RidgeSearch {
     if (width.slanted == 0) return;  // no ground there
     const int x0 = block_x * width_block_px;
     const int y0 = block_y * width_block_px;
-    const BitWord wanted = block_bits(roi_, x0, y0) & inner_block(roi_, x0, y0, 1, 1);
+    // What is a line already stays one.
+    const BitWord wanted = block_bits(roi_, x0, y0) & ~block_bits(strong_, x0, y0) & inner_block(roi_, x0, y0, 1, 1);
     if (wanted == 0) return;
     const Reaches along_row = reaches_for(width.across_row, width.slanted);
     const Reaches along_column = reaches_for(width.across_column, width.slanted);

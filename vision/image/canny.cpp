@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <type_traits>
 
 #include "vision/image/bit_ops.h"
-#include "vision/image/bit_pack.h"
 #include "vision/image/canny_words.h"
 #include "vision/image/vector_registers.h"
 
@@ -16,12 +14,6 @@ namespace {
 
 /// The blur is not divided by its 16, so that nothing is rounded: magnitudes are 16 times those of the thresholds.
 constexpr int blur_scale = 16;
-
-/// Columns that have to be looked at.
-struct Columns {
-  int first = 0;
-  int end = 0;
-};
 
 /// Rows of samples -1..width; index 0 is column 0.
 class RollingRows {
@@ -54,55 +46,84 @@ void repeat_ends(T* row, int width) {
 }
 
 /// The loops over a row, for processors with vector registers; canny_words.h has those for others.
-struct ByVectors {
-  static constexpr int slope_bias = 0;
+class ByKernels {
+ public:
+  explicit ByKernels(const EdgeKernels& kernels) : kernels_(kernels) {}
+  void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, EdgeColumns columns,
+                std::uint16_t* out) const {
+    kernels_.sum_rows(above, here, below, columns, out);
+  }
+  void sum_columns(const std::uint16_t* in, EdgeColumns columns, std::uint16_t* out) const {
+    kernels_.sum_columns(in, columns, out);
+  }
+  void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
+                    EdgeColumns columns, std::uint16_t* sums, std::int16_t* steps) const {
+    kernels_.sum_and_step(above, here, below, columns, sums, steps);
+  }
+  [[nodiscard]] BitWord slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) const {
+    return kernels_.slopes(s, columns, threshold);
+  }
+  [[nodiscard]] EdgeMaxima maxima(const EdgeNeighbours& rows, int x0, BitWord candidates, int threshold) const {
+    return kernels_.maxima(rows, x0, candidates, threshold);
+  }
 
-  static void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int first,
-                       int end, std::uint16_t* out) {
-    for (int x = first; x < end; ++x) out[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-  }
-  static void sum_columns(const std::uint16_t* in, int first, int end, std::uint16_t* out) {
-    for (int x = first; x < end; ++x) out[x] = static_cast<std::uint16_t>(in[x - 1] + 2 * in[x] + in[x + 1]);
-  }
-  static void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below, int first,
-                           int end, std::uint16_t* sums, std::int16_t* steps) {
-    for (int x = first; x < end; ++x) {
-      sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-      steps[x] = static_cast<std::int16_t>(below[x] - above[x]);
-    }
-  }
-  /// Gradients and magnitudes of up to 64 columns from x0 on; a bit where the magnitude is at least `threshold`.
-  static BitWord slopes(const canny_words::Slopes& s, int x0, int end, int threshold) {
-    for (int x = x0; x < end; ++x) {
-      const auto dx = static_cast<std::int16_t>(s.sums[x + 1] - s.sums[x - 1]);
-      const auto dy = static_cast<std::int16_t>(s.steps[x - 1] + 2 * s.steps[x] + s.steps[x + 1]);
-      const auto ax = static_cast<std::int16_t>(dx < 0 ? -dx : dx);
-      const auto ay = static_cast<std::int16_t>(dy < 0 ? -dy : dy);
-      const std::int16_t most = std::max(ax, ay);
-      const std::int16_t least = std::min(ax, ay);
-      s.gx[x] = dx;
-      s.gy[x] = dy;
-      s.magnitude[x] = static_cast<std::uint16_t>(most + (least * 3) / 8);
-    }
-    std::array<std::uint8_t, bits_per_word> flags{};
-    for (int i = 0; i < end - x0; ++i) flags[static_cast<std::size_t>(i)] = s.magnitude[x0 + i] >= threshold ? 1 : 0;
-    return pack_flags(flags.data());
-  }
+ private:
+  const EdgeKernels& kernels_;
 };
 
+/// 1 when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
+/// gradient direction the first stays. Gradients have slope_bias.
+std::uint32_t is_maximum(const EdgeNeighbours& neighbours, int x) {
+  const int gx = neighbours.gx[x] - canny_words::slope_bias;
+  const int gy = neighbours.gy[x] - canny_words::slope_bias;
+  const int ax = gx < 0 ? -gx : gx;
+  const int ay = gy < 0 ? -gy : gy;
+  const int sx = gx < 0 ? -1 : 1;
+  const std::uint16_t* ahead_row = gy < 0 ? neighbours.above : neighbours.below;
+  const std::uint16_t* back_row = gy < 0 ? neighbours.below : neighbours.above;
+  const std::uint16_t* row = neighbours.here;
+  const int corner_ahead = ahead_row[x + sx];
+  const int corner_back = back_row[x - sx];
+  const int side_ahead = ax >= ay ? row[x + sx] : ahead_row[x];
+  const int side_back = ax >= ay ? row[x - sx] : back_row[x];
+  const int most = std::max(ax, ay);
+  const int least = std::min(ax, ay);
+  // The gradient's line meets the neighbours' ring at least / most of the way from the side to the corner.
+  const int here = row[x] * most;
+  if (here <= side_ahead * (most - least) + corner_ahead * least) return 0;
+  return here >= side_back * (most - least) + corner_back * least ? 1U : 0U;
+}
+
 struct ByWords {
-  static constexpr int slope_bias = canny_words::slope_bias;
   static constexpr auto sum_rows = canny_words::sum_rows;
   static constexpr auto sum_columns = canny_words::sum_columns;
   static constexpr auto sum_and_step = canny_words::sum_and_step;
-  static BitWord slopes(const canny_words::Slopes& s, int x0, int end, int threshold) {
+  static BitWord slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) {
     BitWord bits = 0;
-    int x = x0;
-    for (; x + canny_words::block_px <= end; x += canny_words::block_px) {
-      bits |= BitWord{canny_words::slopes_of_block(s, x, threshold)} << (x - x0);
+    int x = columns.first;
+    for (; x + canny_words::block_px <= columns.end; x += canny_words::block_px) {
+      bits |= BitWord{canny_words::slopes_of_block(s, x, threshold)} << (x - columns.first);
     }
-    for (; x < end; ++x) bits |= (canny_words::slope_at(s, x, threshold) ? BitWord{1} : BitWord{0}) << (x - x0);
+    for (; x < columns.end; ++x) {
+      bits |= (canny_words::slope_at(s, x, threshold) ? BitWord{1} : BitWord{0}) << (x - columns.first);
+    }
     return bits;
+  }
+  static EdgeMaxima maxima(const EdgeNeighbours& rows, int x0, BitWord candidates, int threshold) {
+    EdgeMaxima found;
+    for (int half = 0; half < bits_per_word; half += 32) {  // a register of a small processor each
+      std::uint32_t weak_bits = 0;
+      std::uint32_t strong_bits = 0;
+      for (auto left = static_cast<std::uint32_t>(candidates >> half); left != 0; left &= left - 1) {
+        const int bit = std::countr_zero(left);
+        const std::uint32_t maximum = is_maximum(rows, x0 + half + bit) << bit;
+        weak_bits |= maximum;
+        if (rows.here[x0 + half + bit] >= threshold) strong_bits |= maximum;
+      }
+      found.weak |= BitWord{weak_bits} << half;
+      found.strong |= BitWord{strong_bits} << half;
+    }
+    return found;
   }
 };
 
@@ -129,7 +150,7 @@ void for_each_run(Blocks blocks, int width, Visit visit) {
   while (blocks != 0) {
     const int first = std::countr_zero(blocks);
     const int end = first + std::countr_one(blocks >> first);
-    visit(Columns{std::max(first * block_px - 2, 0), std::min(end * block_px + 2, width)});
+    visit(EdgeColumns{std::max(first * block_px - 2, 0), std::min(end * block_px + 2, width)});
     blocks &= end >= 64 ? Blocks{0} : ~Blocks{0} << end;
   }
 }
@@ -153,15 +174,20 @@ class NearBlocks {
   std::array<Blocks, 8> ring_{};
 };
 
+/// One column more on either side, inside the image.
+EdgeColumns wider(EdgeColumns columns, int width) {
+  return {std::max(columns.first - 1, 0), std::min(columns.end + 1, width)};
+}
+
 /// out = 3x3 binomial around row y, times 16.
 template <typename Loops>
-void blur_row(const ImageView<const std::uint8_t>& gray, int y, Blocks blocks, std::uint16_t* vertical,
-              std::uint16_t* out) {
-  for_each_run(blocks, gray.width, [&](Columns columns) {
-    Loops::sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
-                    std::max(columns.first - 1, 0), std::min(columns.end + 1, gray.width), vertical);
+void blur_row(const Loops& loops, const ImageView<const std::uint8_t>& gray, int y, Blocks blocks,
+              std::uint16_t* vertical, std::uint16_t* out) {
+  for_each_run(blocks, gray.width, [&](EdgeColumns columns) {
+    loops.sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
+                   wider(columns, gray.width), vertical);
     repeat_ends(vertical, gray.width);
-    Loops::sum_columns(vertical, columns.first, columns.end, out);
+    loops.sum_columns(vertical, columns, out);
   });
 }
 
@@ -179,15 +205,14 @@ BitWord near_region(ConstBitView roi, int y, int i) {
 
 /// Sobel of row y and its magnitude, near the region. `candidates`: its pixels whose magnitude is at least `threshold`.
 template <typename Loops>
-void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks blocks, int threshold, BitView candidates) {
+void gradient_row(const Loops& loops, const RollingRows& rows, ConstBitView roi, int y, Blocks blocks, int threshold,
+                  BitView candidates) {
   if (blocks == 0) return;
   const int width = roi.width;
-  const canny_words::Slopes slopes = {rows.column_sums(), rows.column_steps(), rows.gx(y), rows.gy(y),
-                                      rows.magnitude(y)};
-  for_each_run(blocks, width, [&](Columns columns) {
-    Loops::sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y),
-                        rows.blurred(std::min(y + 1, roi.height - 1)), std::max(columns.first - 1, 0),
-                        std::min(columns.end + 1, width), rows.column_sums(), rows.column_steps());
+  const EdgeSlopes slopes = {rows.column_sums(), rows.column_steps(), rows.gx(y), rows.gy(y), rows.magnitude(y)};
+  for_each_run(blocks, width, [&](EdgeColumns columns) {
+    loops.sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y), rows.blurred(std::min(y + 1, roi.height - 1)),
+                       wider(columns, width), rows.column_sums(), rows.column_steps());
   });
   repeat_ends(rows.column_sums(), width);
   repeat_ends(rows.column_steps(), width);
@@ -199,76 +224,25 @@ void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks block
     const int end = std::min(x0 + bits_per_word, width);
     const int half = std::min(x0 + block_px, width);
     BitWord bits = 0;
-    if (near << (block_px - 1) != 0) bits = Loops::slopes(slopes, x0, half, threshold);
+    if (near << (block_px - 1) != 0) bits = loops.slopes(slopes, {x0, half}, threshold);
     if (near >> (block_px - 1) != 0 && half < end) {
-      bits |= Loops::slopes(slopes, half, end, threshold) << block_px;
+      bits |= loops.slopes(slopes, {half, end}, threshold) << block_px;
     }
     candidates.row(y)[i] = roi.row(y)[i] & bits;
   }
 }
 
-/// Gradients of a row, and magnitudes of it and its neighbours.
-struct GradientRows {
-  const std::int16_t* gx = nullptr;
-  const std::int16_t* gy = nullptr;
-  const std::uint16_t* above = nullptr;
-  const std::uint16_t* here = nullptr;
-  const std::uint16_t* below = nullptr;
-};
-
-/// 1 when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
-/// gradient direction the first stays.
-template <int Bias>
-std::uint32_t is_maximum(const GradientRows& neighbours, int x) {
-  const int gx = neighbours.gx[x] - Bias;
-  const int gy = neighbours.gy[x] - Bias;
-  const int ax = gx < 0 ? -gx : gx;
-  const int ay = gy < 0 ? -gy : gy;
-  const int sx = gx < 0 ? -1 : 1;
-  const std::uint16_t* ahead_row = gy < 0 ? neighbours.above : neighbours.below;
-  const std::uint16_t* back_row = gy < 0 ? neighbours.below : neighbours.above;
-  const std::uint16_t* row = neighbours.here;
-  const int corner_ahead = ahead_row[x + sx];
-  const int corner_back = back_row[x - sx];
-  const int side_ahead = ax >= ay ? row[x + sx] : ahead_row[x];
-  const int side_back = ax >= ay ? row[x - sx] : back_row[x];
-  const int most = std::max(ax, ay);
-  const int least = std::min(ax, ay);
-  // The gradient's line meets the neighbours' ring at least / most of the way from the side to the corner. Without a
-  // branch: on noise no processor could predict one.
-  const int here = row[x] * most;
-  const int ahead = side_ahead * (most - least) + corner_ahead * least;
-  if constexpr (!vector_registers) {  // no long pipeline either
-    if (here <= ahead) return 0;
-  }
-  const int back = side_back * (most - least) + corner_back * least;
-  return (here > ahead ? 1U : 0U) & (here >= back ? 1U : 0U);
-}
-
 /// Of the candidates of row y the weak and the strong maxima.
 template <typename Loops>
-void find_maxima(const RollingRows& rows, int y, int strong_threshold, BitView weak, BitView strong) {
-  const std::uint16_t* magnitude = rows.magnitude(y);
-  const GradientRows gradients = {rows.gx(y), rows.gy(y), rows.magnitude(y - 1), magnitude, rows.magnitude(y + 1)};
+void find_maxima(const Loops& loops, const RollingRows& rows, int y, int strong_threshold, BitView weak,
+                 BitView strong) {
+  const EdgeNeighbours neighbours = {
+      rows.gx(y), rows.gy(y), rows.magnitude(y - 1), rows.magnitude(y), rows.magnitude(y + 1), weak.width};
   for (int i = 0; i < words_for(weak.width); ++i) {
-    const int x0 = i * bits_per_word;
     if (weak.row(y)[i] == 0) continue;
-    BitWord maxima = 0;
-    BitWord high = 0;
-    for (int half = 0; half < bits_per_word; half += 32) {  // a register of a small processor each
-      std::uint32_t weak_bits = 0;
-      std::uint32_t strong_bits = 0;
-      for (auto left = static_cast<std::uint32_t>(weak.row(y)[i] >> half); left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        const std::uint32_t maximum = is_maximum<Loops::slope_bias>(gradients, x0 + half + bit) << bit;
-        weak_bits |= maximum;
-        if (magnitude[x0 + half + bit] >= strong_threshold) strong_bits |= maximum;
-      }
-      maxima |= BitWord{weak_bits} << half;
-      high |= BitWord{strong_bits} << half;
-    }
-    weak.row(y)[i] = maxima;
-    strong.row(y)[i] = high;
+    const EdgeMaxima found = loops.maxima(neighbours, i * bits_per_word, weak.row(y)[i], strong_threshold);
+    weak.row(y)[i] = found.weak;
+    strong.row(y)[i] = found.strong;
   }
 }
 
@@ -291,8 +265,8 @@ Rows rows_of(ConstBitView roi) {
 }
 
 template <typename Loops>
-GrowResult find_edges_by(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
-                         CannyMemory memory, BitView weak, BitView edges) {
+GrowResult find_edges_by(const Loops& loops, const ImageView<const std::uint8_t>& gray, ConstBitView roi,
+                         const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
   assert(gray.width == roi.width && gray.height == roi.height && gray.width == edges.width);
   clear(weak);
   clear(edges);
@@ -301,7 +275,7 @@ GrowResult find_edges_by(const ImageView<const std::uint8_t>& gray, ConstBitView
   const RollingRows rows(memory, gray.width);
   const int height = gray.height;
   NearBlocks near(roi, reached.first - 4);
-  const auto blur = [&](int y) { blur_row<Loops>(gray, y, near.at(y), rows.vertical(), rows.blurred(y)); };
+  const auto blur = [&](int y) { blur_row(loops, gray, y, near.at(y), rows.vertical(), rows.blurred(y)); };
 
   // Gradients of one row more on either side, as far as there are such.
   const int first = std::max(reached.first - 1, 0);
@@ -310,12 +284,12 @@ GrowResult find_edges_by(const ImageView<const std::uint8_t>& gray, ConstBitView
   for (int y = first; y <= last + 1; ++y) {
     if (y + 1 < height) blur(y + 1);
     if (y < height) {
-      gradient_row<Loops>(rows, roi, y, near.at(y), thresholds.low * blur_scale, weak);
+      gradient_row(loops, rows, roi, y, near.at(y), thresholds.low * blur_scale, weak);
     } else {
       std::fill_n(rows.magnitude(y), gray.width, std::uint16_t{0});  // beyond the image there is no edge
     }
     if (y - 1 >= reached.first && y - 1 <= reached.last) {
-      find_maxima<Loops>(rows, y - 1, thresholds.high * blur_scale, weak, edges);
+      find_maxima(loops, rows, y - 1, thresholds.high * blur_scale, weak, edges);
     }
   }
   return grow_inside(edges, weak);
@@ -324,14 +298,18 @@ GrowResult find_edges_by(const ImageView<const std::uint8_t>& gray, ConstBitView
 }  // namespace
 
 GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
-                      CannyMemory memory, BitView weak, BitView edges) {
-  using Loops = std::conditional_t<vector_registers, ByVectors, ByWords>;
-  return find_edges_by<Loops>(gray, roi, thresholds, memory, weak, edges);
+                      CannyMemory memory, BitView weak, BitView edges, const Kernels& kernels) {
+  if constexpr (vector_registers) {
+    if (kernels.edges.maxima != nullptr) {
+      return find_edges_by(ByKernels(kernels.edges), gray, roi, thresholds, memory, weak, edges);
+    }
+  }
+  return find_edges_by_words(gray, roi, thresholds, memory, weak, edges);
 }
 
 GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
                                const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
-  return find_edges_by<ByWords>(gray, roi, thresholds, memory, weak, edges);
+  return find_edges_by(ByWords{}, gray, roi, thresholds, memory, weak, edges);
 }
 
 }  // namespace touchline

@@ -15,6 +15,7 @@
 #include "vision/image/bit_image.h"
 #include "vision/image/grow.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 
 namespace touchline {
 
@@ -41,7 +42,7 @@ struct CannyStorage {
 /// holds all local maxima above the low threshold afterwards. All of one size. The result tells whether hysteresis
 /// ended within its bound.
 GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
-                      CannyMemory memory, BitView weak, BitView edges);
+                      CannyMemory memory, BitView weak, BitView edges, const Kernels& kernels = portable_kernels());
 /// The same by the loops of processors without vector registers, for the tests elsewhere.
 GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
                                const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "vision/image/edge_rows.h"
 #include "vision/image/word_lanes.h"
 
 namespace touchline::canny_words {
@@ -25,9 +26,10 @@ inline std::uint32_t load(const void* from) {
 inline void store(void* to, std::uint32_t word) { std::memcpy(to, &word, sizeof word); }
 
 /// out = above + 2 here + below, of bytes.
-inline void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, int first, int end,
-                     std::uint16_t* out) {
-  int x = first;
+inline void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                     EdgeColumns columns, std::uint16_t* out) {
+  const int end = columns.end;
+  int x = columns.first;
   for (; x + 4 <= end; x += 4) {
     const std::uint32_t a = load(above + x), h = load(here + x), b = load(below + x);
     const std::uint32_t even = add_even_bytes(add_even_bytes(even_bytes(a), b) + even_bytes(h), h);
@@ -39,16 +41,18 @@ inline void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const 
 }
 
 /// out = left + 2 here + right. Samples up to 1020.
-inline void sum_columns(const std::uint16_t* in, int first, int end, std::uint16_t* out) {
-  int x = first;
+inline void sum_columns(const std::uint16_t* in, EdgeColumns columns, std::uint16_t* out) {
+  const int end = columns.end;
+  int x = columns.first;
   for (; x + 2 <= end; x += 2) store(out + x, load(in + x - 1) + 2 * load(in + x) + load(in + x + 1));
   for (; x < end; ++x) out[x] = static_cast<std::uint16_t>(in[x - 1] + 2 * in[x] + in[x + 1]);
 }
 
 /// sums = above + 2 here + below, steps = below - above + step_bias, of blurred rows.
-inline void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below, int first,
-                         int end, std::uint16_t* sums, std::int16_t* steps) {
-  int x = first;
+inline void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
+                         EdgeColumns columns, std::uint16_t* sums, std::int16_t* steps) {
+  const int end = columns.end;
+  int x = columns.first;
   for (; x + 2 <= end; x += 2) {
     const std::uint32_t a = load(above + x), b = load(below + x);
     store(sums + x, a + 2 * load(here + x) + b);
@@ -74,17 +78,8 @@ inline std::uint32_t interleaved(std::uint32_t halves) {
   return v;
 }
 
-/// What a row's gradient is made of and goes to.
-struct Slopes {
-  const std::uint16_t* sums;
-  const std::int16_t* steps;
-  std::int16_t* gx;  // with slope_bias
-  std::int16_t* gy;
-  std::uint16_t* magnitude;
-};
-
 /// One pixel; whether its magnitude is at least `threshold`.
-inline bool slope_at(const Slopes& s, int x, int threshold) {
+inline bool slope_at(const EdgeSlopes& s, int x, int threshold) {
   const int gx = s.sums[x + 1] - s.sums[x - 1];
   const int gy = s.steps[x - 1] + 2 * s.steps[x] + s.steps[x + 1] - slope_bias;
   const int ax = gx < 0 ? -gx : gx;
@@ -98,7 +93,7 @@ inline bool slope_at(const Slopes& s, int x, int threshold) {
 }
 
 /// The same for 32 pixels, a bit each.
-inline std::uint32_t slopes_of_block(const Slopes& s, int x0, int threshold) {
+inline std::uint32_t slopes_of_block(const EdgeSlopes& s, int x0, int threshold) {
   const std::uint32_t up_to_top = tops - static_cast<std::uint32_t>(threshold) * ones;
   std::uint32_t flags = 0;
   for (int x = x0; x < x0 + block_px; x += 2) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "vision/image/colour_matrix.h"
+#include "vision/image/edge_rows.h"
 #include "vision/image/luma_bands.h"
 #include "vision/image/ridge_block.h"
 
@@ -35,6 +36,7 @@ struct Kernels {
   void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
+  EdgeKernels edges;  // none: not offered
 };
 
 /// For every processor.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vision/image/edge_rows_loops.h"
 #include "vision/image/kernels.h"
 #include "vision/image/luma_bands_words.h"
 #include "vision/image/ridge_block_words.h"
@@ -8,10 +9,10 @@ namespace touchline {
 
 Kernels portable_kernels() {
   if constexpr (!vector_registers) return word_kernels();
-  return {"portable", nullptr, ridge::find_ridges, bands::hsv_rows, bands::white_rows};
+  return {"portable", nullptr, ridge::find_ridges, bands::hsv_rows, bands::white_rows, edge_rows::kernels()};
 }
 Kernels word_kernels() {
-  return {"words", nullptr, ridge_words::find_ridges, band_words::hsv_rows, band_words::white_rows};
+  return {"words", nullptr, ridge_words::find_ridges, band_words::hsv_rows, band_words::white_rows, {}};
 }
 
 LumaBand portable_band(const HsvBandPlan& plan, std::uint8_t cb, std::uint8_t cr) {

@@ -5,7 +5,7 @@
 
 #include "vision/image/ridge_block.h"
 
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -29,45 +29,59 @@ template <typename Vector>
   return v;
 }
 [[gnu::always_inline]] inline I16x8 eight(const std::uint8_t* p) {
+#if defined(__AVX2__)
+  return reinterpret_cast<I16x8>(_mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))));
+#elif defined(__SSE2__)
+  return reinterpret_cast<I16x8>(
+      _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)), _mm_setzero_si128()));
+#else
   return __builtin_convertvector(load_from<U8x8>(p), I16x8);
+#endif
 }
 [[gnu::always_inline]] inline I16x16 sixteen(const std::uint8_t* p) {
+#if defined(__AVX2__)
+  return reinterpret_cast<I16x16>(_mm256_cvtepu8_epi16(load_from<__m128i>(p)));
+#else
   return __builtin_convertvector(load_from<U8x16>(p), I16x16);
+#endif
 }
 [[gnu::always_inline]] inline I16x16 two_rows(const std::int16_t* a, const std::int16_t* b) {
   return __builtin_shufflevector(load_from<I16x8>(a), load_from<I16x8>(b), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
                                  14, 15);
 }
 
-/// A bit a lane.
-[[gnu::always_inline]] inline std::uint32_t bits_of(I16x16 mask) {
+/// A bit a lane of two vectors.
+[[gnu::always_inline]] inline std::uint32_t bits_of(I16x16 first, I16x16 last) {
 #if defined(__AVX2__)
-  const __m256i v = reinterpret_cast<__m256i>(mask);
-  const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
+  const __m256i bytes = _mm256_packs_epi16(reinterpret_cast<__m256i>(first), reinterpret_cast<__m256i>(last));
+  return static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(bytes, 0xD8)));
 #else
-  const U8x16 bytes = __builtin_convertvector(mask & 1, U8x16);
-  std::uint64_t half[2];
-  __builtin_memcpy(half, &bytes, sizeof half);
+  std::uint64_t quarters[4];
+  const U8x16 bytes[2] = {__builtin_convertvector(first & 1, U8x16), __builtin_convertvector(last & 1, U8x16)};
+  __builtin_memcpy(quarters, bytes, sizeof bytes);
+  std::uint64_t bits = 0;
   // Byte i, at bit 8 i, moves to bit 56 + i.
-  const std::uint64_t low = (half[0] * 0x0102040810204080U) >> 56;
-  const std::uint64_t high = (half[1] * 0x0102040810204080U) >> 56;
-  return static_cast<std::uint32_t>(low | high << 8);
+  for (int i = 0; i < 4; ++i) bits |= (quarters[i] * 0x0102040810204080U) >> 56 << (8 * i);
+  return static_cast<std::uint32_t>(bits);
 #endif
 }
 
-struct Flags {
-  std::uint64_t weak = 0, strong = 0;
-};
+/// Lanes of a block, two rows a vector, that are larger than a margin.
+[[gnu::always_inline]] inline std::uint64_t larger(const I16x16 (&rows)[ridge_block_px / 2], std::int16_t margin) {
+  return bits_of(rows[0] > margin, rows[1] > margin) |
+         static_cast<std::uint64_t>(bits_of(rows[2] > margin, rows[3] > margin)) << 32;
+}
 
-/// Two rows of the block at once.
-[[gnu::always_inline]] inline void compare(I16x16 here, I16x16 before, I16x16 after, const RidgeBlock& block, int row,
-                                           Flags& flags) {
+/// How much a pixel is above its sides, of which the brighter one counts.
+[[gnu::always_inline]] inline I16x16 above_sides(I16x16 here, I16x16 before, I16x16 after) {
   const I16x16 most = before > after ? before : after;
-  const I16x16 side = most + (most >> 4);
-  const I16x16 above = here - side;
-  flags.weak |= static_cast<std::uint64_t>(bits_of(above > block.weak_margin)) << (8 * row);
-  flags.strong |= static_cast<std::uint64_t>(bits_of(above > block.strong_margin)) << (8 * row);
+  return here - (most + (most >> 4));
+}
+
+[[gnu::always_inline]] inline void compare(const I16x16 (&above)[ridge_block_px / 2], const RidgeBlock& block,
+                                           std::uint64_t& weak, std::uint64_t& strong) {
+  weak = larger(above, block.weak_margin);
+  if (weak != 0) strong = larger(above, block.strong_margin);
 }
 
 inline int clamped(int v, int last) { return v < 0 ? 0 : v > last ? last : v; }
@@ -101,47 +115,82 @@ inline Patch make_patch(const RidgeBlock& block, Copy& copy) {
   return {copy[0], patch_columns, top, bottom};
 }
 
-inline void look_along_rows(const RidgeBlock& block, const Patch& patch, RidgeBits& out) {
-  std::int16_t sums[ridge_block_px][patch_columns];
+/// Sums of sixteen columns from `first` on.
+[[gnu::always_inline]] inline void sum_down(const std::uint8_t* const (&rows)[ridge_block_px + 2], int first,
+                                            std::int16_t (&sums)[ridge_block_px][patch_columns]) {
+  // a + 2 b + c is (a + b) + (b + c), and each pair serves two rows.
+  I16x16 here = sixteen(rows[1] + first);
+  I16x16 pair = sixteen(rows[0] + first) + here;
   for (int r = 0; r < ridge_block_px; ++r) {
-    const std::uint8_t* above = patch.row(block.y0 + r - 1);
-    const std::uint8_t* here = patch.row(block.y0 + r);
-    const std::uint8_t* below = patch.row(block.y0 + r + 1);
-    for (int i = 0; i < patch_columns; i += 16) {
-      const I16x16 sum = sixteen(above + i) + sixteen(here + i) + sixteen(here + i) + sixteen(below + i);
-      __builtin_memcpy(&sums[r][i], &sum, sizeof sum);
-    }
+    const I16x16 below = sixteen(rows[r + 2] + first);
+    const I16x16 next = here + below;
+    const I16x16 sum = pair + next;
+    __builtin_memcpy(&sums[r][first], &sum, sizeof sum);
+    here = below;
+    pair = next;
+  }
+}
+
+inline int longest(const int (&reaches)[max_ridge_looks], int looks) {
+  int most = 0;
+  for (int k = 0; k < looks; ++k) most = reaches[k] > most ? reaches[k] : most;
+  return most;
+}
+
+inline void look_along_rows(const RidgeBlock& block, const Patch& patch, RidgeBits& out) {
+  const std::uint8_t* rows[ridge_block_px + 2];
+  const bool inside = block.y0 - 1 >= patch.first_row && block.y0 + ridge_block_px <= patch.last_row;
+  const std::uint8_t* corner = patch.row(block.y0 - 1);
+  for (int r = 0; r < ridge_block_px + 2; ++r, corner += patch.stride) {
+    rows[r] = inside ? corner : patch.row(block.y0 + r - 1);
+  }
+  std::int16_t sums[ridge_block_px][patch_columns];
+  constexpr int middle_px = (16 - ridge_block_px) / 2;  // reach that sixteen columns have
+  if (longest(block.row_reach, block.row_looks) <= middle_px) {
+    sum_down(rows, margin_px - middle_px, sums);
+  } else {
+    sum_down(rows, 0, sums);
+    sum_down(rows, 16, sums);
   }
   for (int k = 0; k < block.row_looks; ++k) {
     const int reach = block.row_reach[k];
-    Flags flags;
-    for (int r = 0; r < ridge_block_px; r += 2) {
-      const std::int16_t* a = &sums[r][margin_px];
-      const std::int16_t* b = &sums[r + 1][margin_px];
-      compare(two_rows(a, b), two_rows(a - reach, b - reach), two_rows(a + reach, b + reach), block, r, flags);
+    I16x16 above[ridge_block_px / 2];
+    for (int i = 0; i < ridge_block_px / 2; ++i) {
+      const std::int16_t* a = &sums[2 * i][margin_px];
+      const std::int16_t* b = &sums[2 * i + 1][margin_px];
+      above[i] = above_sides(two_rows(a, b), two_rows(a - reach, b - reach), two_rows(a + reach, b + reach));
     }
-    out.row_weak[k] = flags.weak;
-    out.row_strong[k] = flags.strong;
+    compare(above, block, out.row_weak[k], out.row_strong[k]);
   }
+}
+
+[[gnu::always_inline]] inline void sum_across(const std::uint8_t* here, std::int16_t (&sums)[ridge_block_px]) {
+  const I16x8 middle = eight(here);
+  const I16x8 sum = eight(here - 1) + middle + middle + eight(here + 1);
+  __builtin_memcpy(sums, &sum, sizeof sum);
 }
 
 inline void look_along_columns(const RidgeBlock& block, const Patch& patch, RidgeBits& out) {
   std::int16_t sums[across_rows][ridge_block_px];
-  for (int r = 0; r < across_rows; ++r) {
-    const std::uint8_t* here = patch.row(block.y0 - max_ridge_reach_px + r) + margin_px;
-    const I16x8 sum = eight(here - 1) + eight(here) + eight(here) + eight(here + 1);
-    __builtin_memcpy(sums[r], &sum, sizeof sum);
+  const int reach_px = longest(block.column_reach, block.column_looks);
+  const int first = max_ridge_reach_px - reach_px;
+  const int end = max_ridge_reach_px + ridge_block_px + reach_px;
+  const int top = block.y0 - reach_px;
+  if (top >= patch.first_row && top + end - first - 1 <= patch.last_row) {
+    const std::uint8_t* here = patch.row(top) + margin_px;
+    for (int r = first; r < end; ++r, here += patch.stride) sum_across(here, sums[r]);
+  } else {
+    for (int r = first; r < end; ++r) sum_across(patch.row(top + r - first) + margin_px, sums[r]);
   }
   for (int k = 0; k < block.column_looks; ++k) {
     const int reach = block.column_reach[k];
-    Flags flags;
-    for (int r = 0; r < ridge_block_px; r += 2) {
-      const std::int16_t* here = sums[max_ridge_reach_px + r];
-      compare(load_from<I16x16>(here), load_from<I16x16>(here - reach * ridge_block_px),
-              load_from<I16x16>(here + reach * ridge_block_px), block, r, flags);
+    I16x16 above[ridge_block_px / 2];
+    for (int i = 0; i < ridge_block_px / 2; ++i) {
+      const std::int16_t* here = sums[max_ridge_reach_px + 2 * i];
+      above[i] = above_sides(load_from<I16x16>(here), load_from<I16x16>(here - reach * ridge_block_px),
+                             load_from<I16x16>(here + reach * ridge_block_px));
     }
-    out.column_weak[k] = flags.weak;
-    out.column_strong[k] = flags.strong;
+    compare(above, block, out.column_weak[k], out.column_strong[k]);
   }
 }
 

@@ -69,15 +69,9 @@ inline void compare_row(const std::uint16_t* here, const std::uint16_t* before, 
   strong |= std::uint64_t{strong_bits} << (8 * row);
 }
 
-inline int longest(const int (&reaches)[max_ridge_looks], int looks) {
-  int most = 0;
-  for (int k = 0; k < looks; ++k) most = reaches[k] > most ? reaches[k] : most;
-  return most;
-}
-
 inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, const Margins& margins,
                             RidgeBits& out) {
-  const int reach = longest(block.row_reach, block.row_looks);
+  const int reach = ridge::longest(block.row_reach, block.row_looks);
   const int first = (ridge::margin_px - reach) & ~3;
   const int end = ridge::margin_px + px + reach;
   const std::uint8_t* rows[px + 2];
@@ -106,7 +100,7 @@ inline void look_along_rows(const RidgeBlock& block, const ridge::Patch& patch, 
 
 inline void look_along_columns(const RidgeBlock& block, const ridge::Patch& patch, const Margins& margins,
                                RidgeBits& out) {
-  const int reach = longest(block.column_reach, block.column_looks);
+  const int reach = ridge::longest(block.column_reach, block.column_looks);
   Sums<ridge::across_rows, px> sums;
   const bool inside = block.y0 - reach >= patch.first_row && block.y0 + px + reach <= patch.last_row;
   for (int r = max_ridge_reach_px - reach; r < max_ridge_reach_px + px + reach; ++r) {
