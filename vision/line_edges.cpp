@@ -203,15 +203,11 @@ void add_edges_of_word(const EdgeInput& input, const Place& at, BitWord edges, B
   const BitWord nowhere = no_white & ~any(green);
   const BitWord everywhere = no_white & every(green);
   const BitWord left = edges & ~(nowhere | everywhere);
-  counts.without_green += bits_set(nowhere);
-  counts.without_white += bits_set(everywhere);
-  if (left == 0) return;
-
-  const Steps steps = steps_to_bright_side(input, at, left);
+  const Steps steps = left != 0 ? steps_to_bright_side(input, at, left) : Steps{};
   const BitWord on_green = any(steps & reversed(green));
   const BitWord before_white = on_green & any(steps & white);
-  counts.without_green += bits_set(left & ~on_green);
-  counts.without_white += bits_set(on_green & ~before_white);
+  counts.without_green += bits_set(nowhere | (left & ~on_green));
+  counts.without_white += bits_set(everywhere | (on_green & ~before_white));
   if (before_white == 0) return;
 
   const Steps bounds = steps & before_white;

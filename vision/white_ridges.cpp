@@ -151,8 +151,8 @@ class RidgeSearch {
 
   /// Of those that are bright enough, the ones between green on both sides that are whiter than these.
   void look(const Look& at, BitWord wanted, BitWord weak, BitWord strong, Found& found) const {
-    // What is strong already cannot become more.
-    BitWord left = weak & wanted & ~found.strong;
+    // Where one is found already and cannot become more, there is nothing to learn.
+    BitWord left = weak & wanted & ~(found.strong | (found.weak & ~strong));
     if (left == 0) return;
     left &= inner_block(roi_, at.x0, at.y0, at.dx != 0 ? at.dx : 1, at.dy != 0 ? at.dy + 1 : 1);
     left &= block_bits(green_, at.x0 - at.dx, at.y0 - at.dy) & block_bits(green_, at.x0 + at.dx, at.y0 + at.dy);
@@ -161,12 +161,13 @@ class RidgeSearch {
       const int x = at.x0 + bit % ridge_block_px;
       const int y = at.y0 + bit / ridge_block_px;
       const BitWord flag = BitWord{1} << bit;
-      // Weak already and not more this time: nothing to learn.
-      if ((found.weak & ~strong & flag) != 0) continue;
       const Colour here = colour(x, y);
-      if (!whiter(here, colour(x - at.dx, y - at.dy)) || !whiter(here, colour(x + at.dx, y + at.dy))) continue;
-      found.weak |= flag;
-      found.strong |= strong & flag;
+      // Without a branch: no processor could predict one.
+      const bool before = whiter(here, colour(x - at.dx, y - at.dy));
+      const bool after = whiter(here, colour(x + at.dx, y + at.dy));
+      const BitWord both = static_cast<int>(before) & static_cast<int>(after) ? flag : 0;
+      found.weak |= both;
+      found.strong |= strong & both;
     }
   }
 
@@ -183,8 +184,9 @@ class RidgeSearch {
   /// Chroma over luma, compared without a division: at least an eighth less green than the side, and not more of any
   /// colour: a yellow post is brighter and less green than the carpet, but no line.
   static bool whiter(const Colour& here, const Colour& side) {
-    return here.greenness * side.luma * 8 < side.greenness * here.luma * 7 &&
-           here.chroma * side.luma < side.chroma * here.luma;
+    const bool less_green = here.greenness * side.luma * 8 < side.greenness * here.luma * 7;
+    const bool less_colour = here.chroma * side.luma < side.chroma * here.luma;
+    return (static_cast<int>(less_green) & static_cast<int>(less_colour)) != 0;
   }
 
   ConstYuv420View image_;

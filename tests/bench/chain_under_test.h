@@ -59,7 +59,8 @@ struct ChainUnderTest {
   }
   /// A robot that knows about where it stands, as while it tracks its pose.
   void expect_near(const Pose2& pose) {
-    localizer.reset({.kind = PriorKind::pose, .pose = pose, .sigma_xy = 0.05F, .sigma_theta = radians(2.0F)}, 1);
+    const Prior prior = {.kind = PriorKind::pose, .pose = pose, .sigma_xy = 0.05F, .sigma_theta = radians(2.0F)};
+    require(localizer.reset(prior, 1), "prior");
   }
 };
 

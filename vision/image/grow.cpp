@@ -3,6 +3,7 @@
 #include "vision/image/grow.h"
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 namespace {
@@ -43,23 +44,28 @@ void fill_runs(BitWord* seeds, const BitWord* mask, int words) {
   for (int i = words - 1; i >= 0; --i) seeds[i] = fill_left(seeds[i], mask[i], carry);
 }
 
-/// Seeds from the neighbouring row that are new in this one; true when there are any.
+/// Seeds from the neighbouring row that are new in this one; true when there are any. With a long pipeline without a
+/// branch a word: whether one is open is hard to foresee.
 bool take_over(BitWord* seeds, const BitWord* mask, const BitWord* neighbour, int words) {
   BitWord any = 0;
   BitWord before = 0;
+  BitWord here = words > 0 ? neighbour[0] : 0;
   for (int i = 0; i < words; ++i) {
-    const BitWord here = neighbour[i];
-    const BitWord open = mask[i] & ~seeds[i];
-    if (open == 0) {
-      before = here;
-      continue;
-    }
     const BitWord after = i + 1 < words ? neighbour[i + 1] : 0;
+    const BitWord open = mask[i] & ~seeds[i];
+    if constexpr (!vector_registers) {
+      if (open == 0) {
+        before = here;
+        here = after;
+        continue;
+      }
+    }
     const BitWord reach = here | here << 1 | here >> 1 | before >> (bits_per_word - 1) | after << (bits_per_word - 1);
     const BitWord added = reach & open;
     seeds[i] |= added;
     any |= added;
     before = here;
+    here = after;
   }
   return any != 0;
 }
@@ -76,19 +82,34 @@ bool sweep(BitView seeds, ConstBitView mask, int from, int step) {
   return any;
 }
 
+/// The first sweep, down: seeds outside the mask go, and every row is filled.
+void first_sweep(BitView seeds, ConstBitView mask) {
+  const int words = words_for(mask.width);
+  for (int y = 0; y < mask.height; ++y) {
+    BitWord* row = seeds.row(y);
+    BitWord any = 0;
+    for (int i = 0; i < words; ++i) {
+      row[i] &= mask.row(y)[i];
+      any |= row[i];
+    }
+    const bool more = y > 0 && take_over(row, mask.row(y), seeds.row(y - 1), words);
+    if (any != 0 || more) fill_runs(row, mask.row(y), words);
+  }
+}
+
 }  // namespace
 
 GrowResult grow_inside(BitView seeds, ConstBitView mask) {
   GrowResult result;
   if (mask.width <= 0 || mask.height <= 0) return result;
-  and_with(seeds, mask);
-  for (int y = 0; y < mask.height; ++y) fill_runs(seeds.row(y), mask.row(y), words_for(mask.width));
+  first_sweep(seeds, mask);
+  result.sweeps = 1;
   const int bound = max_grow_sweeps(mask.width, mask.height);
-  // When the second of two sweeps adds nothing, all rows agree with both of their neighbours.
-  for (bool down = true; result.sweeps < bound; down = !down) {
+  // When a sweep after the first adds nothing, all rows agree with both of their neighbours.
+  for (bool down = false; result.sweeps < bound; down = !down) {
     ++result.sweeps;
     const bool grew = down ? sweep(seeds, mask, 0, 1) : sweep(seeds, mask, mask.height - 1, -1);
-    if (!grew && result.sweeps > 1) return result;
+    if (!grew) return result;
   }
   result.finished = false;
   return result;

@@ -99,6 +99,7 @@ HsvFilter::HsvFilter(const HsvRange& range) {
   plan_.reciprocal_low = reciprocal_of(plan_.divisor_low);
   plan_.reciprocal_high = reciprocal_of(plan_.divisor_high);
   if (hue_in_range(0, range) && range.saturation_low == 0) plan_.neutral = {range.value_low, range.value_high};
+  plan_.rare = steps <= 30 && plan_.neutral.low > plan_.neutral.high;
 }
 
 LumaBand HsvFilter::luma_range(std::uint8_t cb, std::uint8_t cr) const { return portable_band(plan_, cb, cr); }

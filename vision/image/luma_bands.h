@@ -27,7 +27,8 @@ struct HsvBandPlan {
   std::int32_t divisor_low = 0, divisor_high = 0;  // 2 S - 1 and 2 S + 1; 0: no bound
   std::uint32_t reciprocal_low = 0, reciprocal_high = 0;
   std::int32_t value_low = 0, value_high = 0;
-  LumaBand neutral;  // for gray, which has no hue
+  LumaBand neutral;   // for gray, which has no hue
+  bool rare = false;  // no gray, and a sixth of the hues at the most: it pays to look whether any sample has one
 };
 
 /// What white must have more of than the carpet (green.h): the least luma for a chroma sample; there is no largest.

@@ -40,6 +40,18 @@ struct Offsets {
   return {359 * r, -88 * b - 183 * r, 454 * b};
 }
 
+/// Whether any sample has a hue of the range; gray has none.
+[[gnu::always_inline]] inline bool any_of_hue(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr,
+                                              int count) {
+  std::int32_t any = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t b = cb[i] - 128;
+    const std::int32_t r = cr[i] - 128;
+    any |= ~(f.from.a * b + f.from.b * r) & (f.to.a * b + f.to.b * r);  // the signs alone
+  }
+  return any < 0;
+}
+
 /// No branch in the loop, so that it vectorises.
 [[gnu::always_inline]] inline void hsv_samples(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr,
                                                int count, std::uint8_t* low, std::uint8_t* high) {
@@ -164,8 +176,14 @@ inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const HsvBandPlan f = plan;  // a copy that no store through `low` can change: the loop stays in registers
   const BandRows r = rows;
   in_rows(
-      r, [&f, &r ](int first, int count, std::uint8_t* low, std::uint8_t* high)
-             __attribute__((always_inline)) { hsv_samples(f, r.cb + first, r.cr + first, count, low, high); });
+      r, [&f, &r ](int first, int count, std::uint8_t* low, std::uint8_t* high) __attribute__((always_inline)) {
+        if (f.rare && !any_of_hue(f, r.cb + first, r.cr + first, count)) {
+          for (int i = 0; i < word_samples; ++i) low[i] = 255;
+          for (int i = 0; i < word_samples; ++i) high[i] = 0;
+          return;
+        }
+        hsv_samples(f, r.cb + first, r.cr + first, count, low, high);
+      });
 }
 
 inline void white_rows(const CarpetLimits& limits, const BandRows& rows) {

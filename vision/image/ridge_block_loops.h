@@ -81,7 +81,7 @@ template <typename Vector>
 [[gnu::always_inline]] inline void compare(const I16x16 (&above)[ridge_block_px / 2], const RidgeBlock& block,
                                            std::uint64_t& weak, std::uint64_t& strong) {
   weak = larger(above, block.weak_margin);
-  if (weak != 0) strong = larger(above, block.strong_margin);
+  strong = larger(above, block.strong_margin);
 }
 
 inline int clamped(int v, int last) { return v < 0 ? 0 : v > last ? last : v; }

@@ -11,6 +11,7 @@
 
 #include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "vision/image/bit_ops.h"
 
 using namespace touchline;
 using namespace touchline::test;
@@ -132,5 +133,22 @@ TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every si
   for (const HsvRange& range :
        {HsvRange{20, 110, 40, 255, 30, 240}, {0, 179, 0, 255, 40, 200}, {150, 70, 0, 90, 0, 255}, {50, 51, 9, 200}}) {
     for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) check_mask(kernels, range);
+  }
+}
+
+TEST_CASE("a picture of one colour passes or not as a whole, with every table of kernels") {
+  const HsvRange range = {18, 34, 110, 255, 60, 255};
+  Gray y(128, 2, 150), cb(64, 1), cr(64, 1);
+  Bits region(128, 2), mask(128, 2);
+  fill(region.view());
+  for (int c = 0; c < 256 * 256; c += 37) {
+    const auto b = static_cast<std::uint8_t>(c / 256), r = static_cast<std::uint8_t>(c % 256);
+    std::fill(cb.samples.begin(), cb.samples.end(), b);
+    std::fill(cr.samples.begin(), cr.samples.end(), r);
+    const int expected = in_range(hsv_from_ycbcr(150, b, r), range) ? 256 : 0;
+    for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) {
+      hsv_in_range({y.view(), cb.view(), cr.view()}, range, region.view(), mask.view(), kernels);
+      REQUIRE(count(mask.view()) == expected);
+    }
   }
 }
