@@ -3,6 +3,11 @@
 // pose.
 #pragma once
 
+// 201709: what compilers say that had not all of C++20 yet.
+#if __cplusplus < 201709L
+#error "touchline.h needs C++20: compile with -std=c++20 (CMake's touchline::touchline asks for it by itself)"
+#endif
+
 #include "loc/known_junctions.h"
 #include "loc/localizer.h"
 #include "vision/pipeline.h"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "platform/core/angle.h"
+#include "platform/host/field_words.h"
 
 namespace touchline::host {
 namespace {
@@ -74,21 +75,25 @@ NamedField preset(const KeyReader& keys, const char* key, const std::string& nam
   return {name, *dimensions};
 }
 
-/// The name that the table has for a key of the field.
-const char* name_in(KeyReader& keys, std::string_view key) {
-  for (const auto& known : field_keys) {
-    if (key == known.name) return keys.either(known.with_unit, known.name);
+const FieldKey& field_key(std::string_view name) {
+  for (const auto& key : field_keys) {
+    if (name == key.name) return key;
   }
-  return field_keys[0].name;
+  return field_keys[0];
 }
 
-void check_field(const FieldDimensions& dimensions, KeyReader& keys) {
+void check_field(const FieldDimensions& dimensions, const KeyReader& keys, const nlohmann::json& table) {
   const char* what = nullptr;
   Field checked;
-  if (Field::create(dimensions, checked, &what) != Status::ok) {
-    keys.fail(name_in(keys, what != nullptr ? what : ""),
-              "does not fit the rest of the field; check it against the rule book");
-  }
+  if (Field::create(dimensions, checked, &what) == Status::ok) return;
+  const FieldKey& key = field_key(what != nullptr ? what : "");
+  const bool given = table.contains(key.name) || table.contains(key.with_unit);
+  const char* const name = table.contains(key.with_unit) ? key.with_unit : key.name;
+  keys.fail(name, "does not fit the rest of the field: it is " + in_words(dimensions.*key.member) +
+                      (given                      ? ""
+                       : table.contains("preset") ? " in the preset"
+                                                  : " by default") +
+                      ", but must be " + field_limit(dimensions, key.name) + "; check it against the rule book");
 }
 
 }  // namespace
@@ -167,7 +172,7 @@ NamedField read_field(KeyReader& top, const std::optional<NamedField>& fallback,
     if (as_float(read) != length) field.name = "free";
     length = as_float(read);
   }
-  check_field(field.dimensions, keys);
+  check_field(field.dimensions, keys, top.table("field"));
   if (notes == nullptr) keys.finish();
   return field;
 }

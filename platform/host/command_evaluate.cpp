@@ -5,6 +5,7 @@
 #include <set>
 
 #include "platform/host/command_line.h"
+#include "platform/host/frame_pictures.h"
 #include "platform/host/report.h"
 #include "platform/host/run_set.h"
 
@@ -68,6 +69,7 @@ int run_evaluate(const EvaluateCommand& command, std::ostream& out, std::ostream
     print_warnings(sets.back(), err);
   }
   name_apart(sets);
+  refuse_to_overwrite(sets, command.options.frames_out);
   std::vector<SetResult> results;
   results.reserve(sets.size());
   for (const auto& set : sets) results.push_back(run_set(set, command.options, command.json, out, err));

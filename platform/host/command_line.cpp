@@ -3,6 +3,7 @@
 #include "platform/host/command_line.h"
 
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -173,6 +174,12 @@ void check_written(std::ostream& out) {
   throw HostError("standard output: could not be written to its end; check the space left where it goes");
 }
 
+/// One line a mistake: check finds several.
+void print_error(const std::string& text, std::ostream& err) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) err << "touchline: " << line << "\n";
+}
+
 int run(const CLI::App& app, Commands& commands, std::ostream& out, std::ostream& err) {
   if (app.got_subcommand("evaluate")) return run_evaluate(commands.evaluate, out, err);
   if (app.got_subcommand("locate")) return run_locate(commands.locate, out, err);
@@ -221,7 +228,7 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
     err << "touchline: " << usage_error(app, error) << "\n";
   } catch (const HostError& error) {
     out << std::flush;
-    err << "touchline: " << error.what() << "\n";
+    print_error(error.what(), err);
   } catch (const std::exception& error) {  // the heap is full, a file system error
     err << "touchline: " << error.what() << "\n";
   }

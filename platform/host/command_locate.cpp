@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "platform/host/command_line.h"
+#include "platform/host/frame_pictures.h"
 #include "platform/host/host_error.h"
 #include "platform/host/report.h"
 #include "platform/host/run_set.h"
@@ -30,6 +31,19 @@ DataSet read_camera_file(const std::filesystem::path& given) {
   return read_dataset(file.parent_path().empty() ? std::filesystem::path(".") : file.parent_path());
 }
 
+/// The options that say what a line of frames.jsonl says, too; nothing when none is given.
+std::string overriding(const LocateCommand& command) {
+  std::string text;
+  const auto add = [&text](const char* what, const std::optional<double>& given) {
+    if (given) text += (text.empty() ? "" : ", ") + std::string(what);
+  };
+  add("--height-m", command.height_m);
+  add("--pitch-deg", command.pitch_deg);
+  add("--roll-deg", command.roll_deg);
+  add("--yaw-deg", command.yaw_deg);
+  return text;
+}
+
 void apply_options(const LocateCommand& command, const DataSet& set, DataFrame& frame) {
   CameraPose& mount = frame.camera.mount;
   if (command.height_m) mount.height = static_cast<float>(*command.height_m);
@@ -39,8 +53,20 @@ void apply_options(const LocateCommand& command, const DataSet& set, DataFrame& 
     frame.has_yaw = true;
     frame.yaw = wrap_angle(as_radians(*command.yaw_deg - set.goal_yaw_deg));
   }
+  if (!overriding(command).empty()) frame.has_truth = false;  // it is the truth of another mount
   if (!(mount.height > 0.0F)) {
     throw HostError(command.camera + ": [mount] height_m: is missing; add it, or give --height-m");
+  }
+}
+
+void print_sources(const LocateCommand& command, int found, std::ostream& out) {
+  const std::string options = overriding(command);
+  out << found << " of " << command.images.size() << " images have a line in frames.jsonl; ";
+  if (options.empty()) {
+    out << "mount, yaw and truth are taken from there\n";
+  } else {
+    out << "the rest of mount and yaw is taken from there, but " << options
+        << " is as you gave it, and poses are not held against a truth\n";
   }
 }
 
@@ -64,13 +90,12 @@ int run_locate(const LocateCommand& command, std::ostream& out, std::ostream& er
     }
     frame.image = image;
     frame.path = image;
+    frame.line = 0;
     apply_options(command, set, frame);
     set.frames.push_back(frame);
   }
-  if (found > 0 && !command.json) {
-    out << found << " of " << command.images.size()
-        << " images have a line in frames.jsonl; mount, yaw and truth are taken from there\n";
-  }
+  refuse_to_overwrite({set}, command.options.frames_out);
+  if (found > 0 && !command.json) print_sources(command, found, out);
   const SetResult result = run_set(set, command.options, command.json, out, err);
   if (command.json) out << json_summary({result}, command.options) << "\n";
   return exit_status({result});

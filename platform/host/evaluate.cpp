@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
-#include <map>
 
+#include "platform/host/frame_pictures.h"
 #include "platform/host/host_error.h"
 #include "platform/host/image_file.h"
 #include "platform/host/overlay.h"
@@ -88,19 +88,6 @@ std::vector<std::string> panel_text(const FrameRecord& record, const VisionResul
   return lines;
 }
 
-/// Sees to it that no two pictures of a run have one name.
-class PictureNames {
- public:
-  std::string next(const std::filesystem::path& image) {
-    const std::string stem = image.stem().string();
-    const int number = ++used_[stem];
-    return number == 1 ? stem + ".png" : stem + "-" + std::to_string(number) + ".png";
-  }
-
- private:
-  std::map<std::string, int> used_;
-};
-
 void write_overlay(const std::filesystem::path& file, const FrameRecord& record, const RgbImage& picture,
                    Chain& chain) {
   OverlayInput input;
@@ -138,7 +125,8 @@ class Run {
       : set_(set),
         options_(options),
         independent_(set.protocol == Protocol::independent),
-        chain_(options.chain, set.field) {}
+        chain_(options.chain, set.field),
+        names_(picture_names(set.frames)) {}
 
   FrameRecord frame(std::size_t index) {
     FrameRecord record;
@@ -179,8 +167,7 @@ class Run {
     record.posts.assign(vision.features->posts.begin(), vision.features->posts.end());
     judge_record(record, vision);
     if (options_.frames_out.empty()) return;
-    const auto folder = std::filesystem::path(options_.frames_out) / folder_name(set_.name);
-    write_overlay(folder / names_.next(record.frame.path), record, picture, chain_);
+    write_overlay(picture_folder(options_.frames_out, set_.name) / names_[index], record, picture, chain_);
   }
 
   void check(FrameRecord& record, const VisionResult& vision) const {
@@ -205,7 +192,7 @@ class Run {
   bool independent_;
   Chain chain_;
   StageClock clock_;
-  PictureNames names_;
+  std::vector<std::string> names_;  // of the annotated pictures
   bool started_ = false;
   std::optional<Pose2> left_odometry_;
   bool left_kidnap_ = false;

@@ -8,12 +8,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <string_view>
 
 #include <jpeglib.h>
 #include <png.h>
 
 #include "platform/host/host_error.h"
+#include "platform/host/input_file.h"
 
 namespace touchline::host {
 namespace {
@@ -134,26 +135,29 @@ RgbImage decode_jpeg(std::span<const std::uint8_t> file, const std::string& name
   return image;
 }
 
-}  // namespace
+constexpr std::string_view png_signature = "\x89PNG";
+constexpr std::string_view jpeg_signature = "\xFF\xD8\xFF";
+/// The largest picture without compression, 16 bits a sample, eight times over.
+constexpr std::size_t most_image_bytes = std::size_t{8} * max_frame_width * max_frame_height * 6;
 
-RgbImage decode_image(std::span<const std::uint8_t> file, const std::string& name) {
-  static constexpr std::uint8_t png_magic[4] = {0x89, 'P', 'N', 'G'};
-  static constexpr std::uint8_t jpeg_magic[3] = {0xFF, 0xD8, 0xFF};
-  if (file.empty()) throw HostError(name + ": the file is empty; give a PNG or JPEG image");
-  if (file.size() >= 4 && std::memcmp(file.data(), png_magic, 4) == 0) return decode_png(file, name);
-  if (file.size() >= 3 && std::memcmp(file.data(), jpeg_magic, 3) == 0) return decode_jpeg(file, name);
+void check_signature(std::string_view bytes, const std::string& name) {
+  if (bytes.empty()) throw HostError(name + ": the file is empty; give a PNG or JPEG image");
+  if (bytes.starts_with(png_signature) || bytes.starts_with(jpeg_signature)) return;
   throw HostError(name + ": neither a PNG nor a JPEG file; convert it to one of the two");
 }
 
-RgbImage read_image(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw HostError(path.string() + ": no such image; check the path (it is relative to the data set's folder)");
-  }
-  if (std::filesystem::is_directory(path, ignored)) throw HostError(path.string() + ": a folder, not an image");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw HostError(path.string() + ": cannot be opened; check its permissions");
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+}  // namespace
+
+RgbImage decode_image(std::span<const std::uint8_t> file, const std::string& name) {
+  const std::string_view bytes(reinterpret_cast<const char*>(file.data()), file.size());
+  check_signature(bytes, name);
+  return bytes.starts_with(png_signature) ? decode_png(file, name) : decode_jpeg(file, name);
+}
+
+RgbImage read_image(const std::filesystem::path& path, const std::string& remedy) {
+  InputFile kind{"image", remedy, most_image_bytes};
+  kind.first_bytes = [&path](std::string_view bytes) { check_signature(bytes, path.string()); };
+  const std::string bytes = read_whole_file(path, kind);
   return decode_image({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, path.string());
 }
 

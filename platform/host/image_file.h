@@ -35,8 +35,9 @@ struct RgbImage {
 /// Decodes a whole file held in memory; `name` is for the message. Throws HostError: neither PNG nor JPEG, damaged or
 /// cut off, larger than max_frame_width x max_frame_height.
 RgbImage decode_image(std::span<const std::uint8_t> file, const std::string& name);
-/// Reads and decodes; also throws when the file is missing or empty.
-RgbImage read_image(const std::filesystem::path& path);
+/// Reads and decodes; also throws when the file is missing, empty, a device or a pipe. What is no PNG or JPEG is told
+/// by its first bytes, before the rest is read. `remedy` ends the sentence about a file that is missing or no file.
+RgbImage read_image(const std::filesystem::path& path, const std::string& remedy = "give a PNG or JPEG file");
 /// Throws HostError when the file cannot be written.
 void write_png(const std::filesystem::path& path, const RgbImage& image);
 /// Likewise; `quality` 1..100. For recordings, where a PNG a frame would be ten times the size.

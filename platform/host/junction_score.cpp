@@ -3,16 +3,18 @@
 #include "platform/host/junction_score.h"
 
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "platform/host/host_error.h"
+#include "platform/host/input_file.h"
 
 namespace touchline::host {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t most_expected_bytes = std::size_t{16} << 20;
 
 std::optional<JunctionType> type_of(const std::string& name) {
   if (name == "X") return JunctionType::x;
@@ -44,10 +46,16 @@ JunctionCount& of(JunctionScore& score, JunctionType type) { return score[static
 std::optional<std::vector<ExpectedLandmark>> read_expected(const std::filesystem::path& image) {
   const auto folder = image.parent_path().parent_path() / "expected";
   const auto file = folder / (image.stem().string() + ".json");
-  std::ifstream in(file);
-  if (!in) return std::nullopt;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+  std::string text;
   try {
-    return parse(json::parse(in));
+    text = read_whole_file(file, {"file", "correct or remove it", most_expected_bytes});
+  } catch (const HostError& error) {
+    throw FrameError(error.what());
+  }
+  try {
+    return parse(json::parse(text));
   } catch (const json::exception& error) {
     throw FrameError(file.string() + ": not a list of expected landmarks: " + error.what() +
                      "; correct or remove the file");

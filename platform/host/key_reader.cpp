@@ -41,9 +41,25 @@ std::string in_words(double value) {
   return text;
 }
 
+std::vector<std::string> without_repeats(const std::vector<std::string>& words) {
+  std::vector<std::string> out;
+  for (const auto& word : words) {
+    if (std::find(out.begin(), out.end(), word) == out.end()) out.push_back(word);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  const std::string* begun = nullptr;  // the only one that begins so
+  int beginnings = 0;
+  for (const auto& candidate : known) {
+    if (word.size() < 3 || !candidate.starts_with(word)) continue;
+    beginnings += begun == nullptr || candidate != *begun ? 1 : 0;
+    begun = &candidate;
+  }
+  if (beginnings == 1) return *begun;
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const auto& candidate : known) {
@@ -84,6 +100,17 @@ void KeyReader::fail(const std::string& key, const std::string& problem) const {
   throw HostError(place_of(key) + in_table(key) + ": " + problem);
 }
 
+/// A key that nobody asks for may be the missing one, misspelt.
+void KeyReader::fail_missing(const std::string& key, const std::string& remedy) const {
+  std::string text = "is missing; " + remedy;
+  for (const auto& [word, value] : table_->items()) {
+    if (std::find(asked_.begin(), asked_.end(), word) != asked_.end() || nearest_word(word, {key}).empty()) continue;
+    text += "; did you mean it by " + word + "?";
+    break;
+  }
+  fail(key, text);
+}
+
 const nlohmann::json* KeyReader::find(const char* key) {
   asked_.emplace_back(key);
   if (log_ != nullptr) log_->push_back(path_of(key));
@@ -115,7 +142,7 @@ double KeyReader::number(const char* key, const NumberRange& range, std::optiona
   const auto* value = find(key);
   if (value != nullptr) return checked(key, *value, range);
   if (fallback) return *fallback;
-  fail(key, std::string("is missing; ") + (range.remedy != nullptr ? range.remedy : "add it"));
+  fail_missing(key, range.remedy != nullptr ? range.remedy : "add it");
 }
 
 double KeyReader::number(const char* key, double low, double high, double fallback) {
@@ -138,27 +165,42 @@ std::int64_t KeyReader::milliseconds(const char* key, double low, double high, s
 }
 
 int KeyReader::integer(const char* key, int low, int high, const char* remedy) {
-  const double value = number(key, {static_cast<double>(low), static_cast<double>(high), remedy});
-  if (value != std::floor(value)) fail(key, "is " + in_words(value) + ", not a whole number; " + remedy);
-  return static_cast<int>(value);
+  const NumberRange range{static_cast<double>(low), static_cast<double>(high), remedy};
+  const auto* value = find(key);
+  if (value != nullptr && value->is_number_float()) {
+    NumberRange any;
+    any.remedy = remedy;
+    const double number = checked(key, *value, any);
+    if (number != std::floor(number)) fail(key, "is " + in_words(number) + ", not a whole number; " + remedy);
+  }
+  return static_cast<int>(number(key, range));
 }
 
 int KeyReader::integer(const char* key, int low, int high, int fallback) {
   const auto* value = find(key);
   if (value == nullptr) return fallback;
-  const double number = checked(key, *value, {static_cast<double>(low), static_cast<double>(high)});
-  if (value->is_number_float()) fail(key, "is " + shown(*value) + "; write a whole number");
-  return static_cast<int>(number);
+  if (value->is_number_float()) {
+    fail(key,
+         "is " + shown(*value) + "; write a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  }
+  return static_cast<int>(checked(key, *value, {static_cast<double>(low), static_cast<double>(high)}));
+}
+
+/// The system ends a name at its first NUL: another file would be opened than the one that is told.
+std::string KeyReader::without_nul(const char* key, const nlohmann::json& value) const {
+  auto text = value.get<std::string>();
+  if (text.find('\0') != std::string::npos) fail(key, "is " + shown(value) + ", with a NUL in it; take that out");
+  return text;
 }
 
 std::string KeyReader::text(const char* key, std::optional<std::string> fallback, const char* remedy) {
   const auto* value = find(key);
   if (value == nullptr) {
     if (fallback) return *fallback;
-    fail(key, std::string("is missing; ") + remedy);
+    fail_missing(key, remedy);
   }
   if (!value->is_string()) fail(key, "is " + shown(*value) + ", not a text in quotes; write it as one");
-  return value->get<std::string>();
+  return without_nul(key, *value);
 }
 
 std::size_t KeyReader::choice(const char* key, const std::vector<std::string>& choices,
@@ -203,7 +245,7 @@ std::vector<std::string> KeyReader::texts(const char* key) {
   if (!value->is_array()) fail(key, "is " + shown(*value) + "; write a list of texts");
   for (const auto& element : *value) {
     if (!element.is_string()) fail(key, "holds " + shown(element) + "; write texts in quotes");
-    out.push_back(element.get<std::string>());
+    out.push_back(without_nul(key, element));
   }
   return out;
 }
@@ -246,16 +288,22 @@ std::vector<UnknownKey> KeyReader::unknown_keys() const {
       text.append("; did you mean ").append(near).append("?");
     } else {
       text.append("; known are");
-      for (const auto& asked : asked_) text.append(&asked == &asked_.front() ? " " : ", ").append(asked);
+      const auto known = without_repeats(asked_);
+      for (const auto& word : known) text.append(&word == &known.front() ? " " : ", ").append(word);
     }
     unknown.push_back({key, place_of(key), text});
   }
   return unknown;
 }
 
+UnknownKey KeyReader::remark(const std::string& key, const std::string& what) const {
+  return {key, place_of(key), in_table(key) + ": " + what};
+}
+
 void KeyReader::finish() const {
-  const auto unknown = unknown_keys();
-  if (!unknown.empty()) throw HostError(unknown.front().place + unknown.front().text);
+  std::string text;
+  for (const auto& unknown : unknown_keys()) text += (text.empty() ? "" : "\n") + unknown.place + unknown.text;
+  if (!text.empty()) throw HostError(text);
 }
 
 }  // namespace touchline::host

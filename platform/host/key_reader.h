@@ -17,7 +17,8 @@
 
 namespace touchline::host {
 
-/// The entry of `known` that is nearest to `word` by edit distance; empty when nothing is near.
+/// The entry of `known` that begins with `word`, where there is one, else the nearest by edit distance; empty when
+/// nothing is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 /// "\"x\" is not known; known are a, b; did you mean a?"
 std::string unknown_word(const std::string& word, const std::vector<std::string>& known);
@@ -36,6 +37,7 @@ struct Place {
   const std::map<std::string, int>* lines = nullptr;  // by "table.key", of a TOML file; outlives the reader
 };
 
+/// A key that nobody asked for, or about which there is something else to say.
 struct UnknownKey {
   std::string key;    // without its table
   std::string place;  // "file:line: "
@@ -84,7 +86,9 @@ class KeyReader {
   void expect(std::initializer_list<const char*> keys);
   /// Each key that nobody asks for, with the nearest right one.
   [[nodiscard]] std::vector<UnknownKey> unknown_keys() const;
-  /// Throws for such a key. Call it last.
+  /// A sentence about a key, with its place.
+  [[nodiscard]] UnknownKey remark(const std::string& key, const std::string& what) const;
+  /// Throws for unknown keys, a line for each. Call it last.
   void finish() const;
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Place& place() const { return place_; }
@@ -95,6 +99,8 @@ class KeyReader {
     return name_.empty() ? key : "[" + name_ + "] " + key;
   }
   [[nodiscard]] std::string place_of(const std::string& key) const;
+  [[noreturn]] void fail_missing(const std::string& key, const std::string& remedy) const;
+  [[nodiscard]] std::string without_nul(const char* key, const nlohmann::json& value) const;
   double checked(const char* key, const nlohmann::json& value, const NumberRange& range) const;
 
   const nlohmann::json* table_;

@@ -2,16 +2,18 @@
 // Reads TOML by toml++ and turns the tree into a JSON value.
 #include "platform/host/toml_file.h"
 
-#include <fstream>
 #include <sstream>
 
 #include <toml++/toml.h>
 #include <nlohmann/json.hpp>
 
 #include "platform/host/host_error.h"
+#include "platform/host/input_file.h"
 
 namespace touchline::host {
 namespace {
+
+constexpr std::size_t most_bytes = std::size_t{4} << 20;  // written by hand: a few KiB
 
 // NOLINTNEXTLINE(misc-no-recursion): a tree, as deep as the file is nested; toml++ bounds that
 nlohmann::json to_json(const toml::node& node, const std::string& name, TomlLines& lines) {
@@ -43,16 +45,9 @@ nlohmann::json to_json(const toml::node& node, const std::string& name, TomlLine
 }  // namespace
 
 nlohmann::json read_toml(const std::filesystem::path& path, const std::string& remedy, TomlLines& lines) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw HostError(path.string() + ": is a folder; " + remedy);
-  if (!std::ifstream(path)) {
-    std::error_code unknown;  // a folder on the way may not be entered
-    const bool missing = !std::filesystem::exists(path, unknown) && !unknown;
-    throw HostError(path.string() +
-                    (missing ? ": no such file; " + remedy : ": cannot be opened; check its permissions"));
-  }
+  const std::string text = read_whole_file(path, {"file", remedy, most_bytes});
   try {
-    auto root = to_json(toml::parse_file(path.string()), "", lines);
+    auto root = to_json(toml::parse(text, path.string()), "", lines);
     lines.erase("");
     return root;
   } catch (const toml::parse_error& error) {

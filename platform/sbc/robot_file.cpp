@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "platform/host/host_error.h"
 #include "platform/host/toml_file.h"
 #include "platform/sbc/robot_file_tables.h"
 #include "platform/sbc/udp_address.h"
@@ -29,24 +30,49 @@ void read_realtime(KeyReader table, RobotFile& file) {
   table.finish();
 }
 
+namespace {
+
+/// The first mistake of each table, so that not every one takes a run of its own.
+class Mistakes {
+ public:
+  template <typename Read>
+  void in(Read&& read) {
+    try {
+      read();
+    } catch (const host::HostError& error) {
+      text_.append(text_.empty() ? "" : "\n").append(error.what());
+    }
+  }
+  void tell() const {
+    if (!text_.empty()) throw host::HostError(text_);
+  }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
 RobotFile read_robot_file(const std::filesystem::path& path, std::vector<std::string>* keys) {
   host::TomlLines lines;
   const nlohmann::json root = host::read_toml(path, "give the path of the robot's TOML file", lines);
   KeyReader top(root, {path.string(), 0, &lines}, "", keys);
   RobotFile file;
-  read_camera(top.inner("camera"), file,
-              path.parent_path());  // first: a replayed set brings field, lens and mount along
-  read_field(top, file);
-  read_lens(top.inner("lens"), file);
-  read_mount(top.inner("mount"), file);
-  read_imu(top.inner("imu"), file);
-  read_gait(top.inner("gait"), file);
-  read_panel(top.inner("panel"), file, path.parent_path());
-  read_vision(top.inner("vision"), file);
-  read_localization(top.inner("localization"), file);
-  read_output(top.inner("output"), file);
-  read_realtime(top.inner("realtime"), file);
-  top.finish();
+  Mistakes mistakes;
+  // The camera first: a replayed set brings field, lens and mount along, and without it they cannot be judged.
+  read_camera(top.inner("camera"), file, path.parent_path());
+  mistakes.in([&] { read_field(top, file); });
+  mistakes.in([&] { read_lens(top.inner("lens"), file); });
+  mistakes.in([&] { read_mount(top.inner("mount"), file); });
+  mistakes.in([&] { read_imu(top.inner("imu"), file); });
+  mistakes.in([&] { read_gait(top.inner("gait"), file); });
+  mistakes.in([&] { read_panel(top.inner("panel"), file, path.parent_path()); });
+  mistakes.in([&] { read_vision(top.inner("vision"), file); });
+  mistakes.in([&] { read_localization(top.inner("localization"), file); });
+  mistakes.in([&] { read_output(top.inner("output"), file); });
+  mistakes.in([&] { read_realtime(top.inner("realtime"), file); });
+  mistakes.in([&] { top.finish(); });
+  mistakes.tell();
   return file;
 }
 

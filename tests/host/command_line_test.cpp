@@ -235,7 +235,12 @@ TEST_CASE("locate's options come before the files") {
     return nlohmann::json::parse(lines.substr(0, lines.find('\n')));
   };
   const auto by_line = frame({});
-  CHECK(by_line.at("error").at("m").get<double>() < 0.10);  // the line has the truth, too
+  CHECK(by_line.at("error").at("m").get<double>() < 0.10);      // the line has the truth, too
+  CHECK_FALSE(frame({"--height-m", "1.2"}).contains("error"));  // by hand: it is another mount's truth
+  CHECK_FALSE(frame({"--yaw-deg", "12"}).contains("error"));
+  const Run table = run({"locate", "--camera", folder, folder + "/images/000.png", "--pitch-deg", "50"});
+  CHECK(contains(table.out, "but --pitch-deg is as you gave it, and poses are not held against a truth"));
+  CHECK_FALSE(contains(table.out, "truth are taken from there"));
   CHECK(frame({"--height-m", "1.2"}).at("pose") != by_line.at("pose"));
   CHECK(frame({"--pitch-deg", "50"}).at("pose") != by_line.at("pose"));
   CHECK(frame({"--roll-deg", "20"}).at("pose") != by_line.at("pose"));

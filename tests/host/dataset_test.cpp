@@ -3,7 +3,9 @@
 #include "platform/host/dataset.h"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
+#include "platform/host/key_reader.h"
 #include "tests/host/temp_folder.h"
 
 namespace touchline::host {
@@ -167,7 +169,7 @@ TEST_CASE("a key or table that is misspelt is named, also where it is the reason
   CHECK(contains(toml_error("[mount]", "[munt]"), "munt: unknown table; did you mean mount?"));
   const std::string key = toml_error("focal_px", "focal_pix");
   CHECK(contains(key, "[camera] focal_px: is missing"));
-  CHECK(contains(key, "[camera] focal_pix: unknown key; did you mean focal_px?"));
+  CHECK(contains(key, "did you mean it by focal_pix?"));
 }
 
 TEST_CASE("an unknown key is told once, with a count") {
@@ -221,4 +223,78 @@ TEST_CASE("an image that is missing or of another size is an error") {
 }
 
 }  // namespace
+TEST_CASE("a dimension that does not fit says its limit, by the name that the file has for it") {
+  const auto error = [](const std::string& table) {
+    return toml_error("field = \"acyut-5x3\"", "field = { " + table + " }");
+  };
+  CHECK(contains(error("preset = \"small-2026\", line_width = 0.5"),
+                 "[field] line_width: does not fit the rest of the field: it is 0.5, but must be from 0.01 to 0.3"));
+  CHECK(contains(error("preset = \"small-2026\", line_width_m = 0.5"), "[field] line_width_m: does not fit"));
+  CHECK(contains(error("preset = \"small-2026\", penalty_area_depth = 0"),
+                 "or 0 together with penalty_area_width, which is 4;"));
+  CHECK(
+      contains(error("preset = \"small-2026\", width = 2.5"),
+               "[field] goal_area_width: does not fit the rest of the field: it is 3 in the preset, but must be above "
+               "0 and below 2.5 (width)"));
+  CHECK(contains(error("preset = \"small-2026\", penalty_area_width = 2"), "above 3 (goal_area_width) and below 6"));
+}
+
+TEST_CASE("a missing key is found in the misspelt one") {
+  CHECK(contains(toml_error("focal_px = 20.0", "focal = 20.0"),
+                 "[camera] focal_px: is missing; give the focal length in camera pixels; did you mean it by focal?"));
+  CHECK(contains(toml_error("height_m = 0.58", "height = 0.58"), "did you mean it by height?"));
+}
+
+TEST_CASE("lens keys of another model, and a principal point outside of the picture, are told") {
+  const TempFolder folder;
+  write_set(folder, replaced(good_toml, "cx = 32.5", "cx = -5\nk1 = 0.1"),
+            "{\"image\": \"a.png\"}\n{\"image\": \"b.png\"}\n");
+  const DataSet set = read_dataset(folder.path());
+  REQUIRE(set.warnings.size() == 2);
+  CHECK(contains(set.warnings[0], "[camera] k1: belongs to the model kannala_brandt and is not used"));
+  CHECK(contains(set.warnings[1], "[camera] cx: is -5.0, outside of the picture of 64x48 pixels; check it"));
+  CHECK(contains(toml_error("cx = 32.5", "cx_px = -160"),
+                 "[camera] cx_px: is -160.0, outside of the picture of 64x48 pixels, and so far that the lens sees"));
+}
+
+TEST_CASE("a set without a name has its folder's, by whatever path it is given") {
+  const TempFolder folder;
+  write_set(folder, replaced(good_toml, "name = ", "# name = "), "{\"image\": \"a.png\"}\n");
+  const std::string name = folder.path().filename().string();
+  CHECK(read_dataset(folder.path()).name == name);
+  CHECK(read_dataset(folder.path() / "").name == name);
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const std::string here = read_dataset(".").name;
+  const std::string file = read_dataset_toml("dataset.toml").name;
+  std::filesystem::current_path(before);
+  CHECK(here == name);
+  CHECK(file == name);
+  write_set(folder, "name = \"\"\n" + replaced(good_toml, "name = ", "# name = "), "{\"image\": \"a.png\"}\n");
+  CHECK(read_dataset(folder.path()).name == name);
+}
+
+TEST_CASE("the order of time holds over a line without a time") {
+  const TempFolder folder;
+  write_set(folder, good_toml,
+            "{\"image\": \"a.png\", \"t_s\": 5}\n{\"image\": \"b.png\"}\n{\"image\": \"c.png\", \"t_s\": 1}\n");
+  CHECK(contains(error_of([&] { (void)read_dataset(folder.path()); }), "frames.jsonl:3: t_s: is smaller"));
+}
+
+TEST_CASE("texts hold no NUL, known keys are told once, and the beginning of a word is enough") {
+  CHECK(contains(line_error("images/a.png", "images/a.png\\u0000.txt"), "with a NUL in it"));
+  const nlohmann::json table = {{"exposure", 3}, {"zzzzzzzzzzzz", 1}};
+  KeyReader keys(table, {"f", 0, nullptr}, "camera");
+  (void)keys.integer("gain", 0, 9, 1);
+  (void)keys.integer("gain", 0, 9, 1);
+  (void)keys.find("exposure");
+  CHECK(contains(error_of([&] { keys.finish(); }), "unknown key; known are gain, exposure"));
+  CHECK_FALSE(contains(error_of([&] { keys.finish(); }), "gain, gain"));
+  CHECK(nearest_word("--part", {"--paper", "--port", "--particles"}) == "--particles");
+  const nlohmann::json half = {{"fifo_depth", 4.5}};
+  KeyReader vision(half, {"f", 0, nullptr}, "vision");
+  CHECK(contains(error_of([&] { (void)vision.integer("fifo_depth", 1, 4, 4); }), "write a whole number from 1 to 4"));
+  CHECK(contains(error_of([&] { (void)vision.integer("fifo_depth", 1, 4, "count"); }), "not a whole number; count"));
+}
+
 }  // namespace touchline::host

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -80,6 +81,15 @@ TEST_CASE("the example is good, names every key, and holds the defaults") {
   CHECK(example.realtime.lock_memory == empty.realtime.lock_memory);
   CHECK_FALSE(empty.robot.goal_yaw_known);
   CHECK(empty.output.udp.empty());
+}
+
+TEST_CASE("the first mistake of each table is told, and every unknown key") {
+  const std::string text = error_of("[mount]\nheight_m = -1\n[vision]\nfifo_depth = 4.5\n[imx]\na = 1\n[gaitt]\n");
+  CHECK(contains(text, ":2: [mount] height_m: is -1"));
+  CHECK(contains(text, ":4: [vision] fifo_depth: is 4.5; write a whole number from 1 to 4"));
+  CHECK(contains(text, "imx: unknown table"));
+  CHECK(contains(text, "gaitt: unknown table"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 3);
 }
 
 TEST_CASE("lens, mount and field that are the defaults are named, for no robot has them by accident") {
