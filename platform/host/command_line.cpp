@@ -207,10 +207,25 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv, Commands& co
 
 }  // namespace
 
+namespace {
+
+/// "help COMMAND" is "COMMAND --help".
+std::vector<const char*> understood(int argc, const char* const* argv) {
+  std::vector<const char*> words(argv, argv + argc);
+  if (argc < 2 || std::string(argv[1]) != "help") return words;
+  words.erase(words.begin() + 1);
+  if (words.size() <= 2) words.push_back("--help");
+  return words;
+}
+
+}  // namespace
+
 int touchline_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err, bool terminal) {
   CLI::App app{"touchline tells a humanoid soccer robot where it stands.", "touchline"};
   app.require_subcommand(0, 1);
   app.footer(std::string("Each command has its own --help with an example.") + exit_text);
+  app.set_version_flag("--version", "touchline " TOUCHLINE_VERSION, "the program's version");
+  const std::vector<const char*> words = understood(argc, argv);
   Commands commands;
   commands.demo.live = terminal;
   add_evaluate(app, commands.evaluate);
@@ -221,7 +236,7 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
   add_command(app, "memory", "what the chain's state takes, struct by struct", "memory");
   add_robot(app, commands.robot);
   try {
-    const int status = parse_and_run(app, argc, argv, commands, out, err);
+    const int status = parse_and_run(app, static_cast<int>(words.size()), words.data(), commands, out, err);
     check_written(out);
     return status;
   } catch (const CLI::ParseError& error) {

@@ -11,6 +11,7 @@ namespace touchline::host {
 namespace {
 
 constexpr int panel_width = 300;
+constexpr int panel_height = 520;          // map, text, legend with the codes of a crowded picture
 constexpr float projected_step_m = 0.05F;  // fine enough to follow a fish-eye's bend
 
 /// Draws field points in a row, broken where the camera does not see the ground.
@@ -35,6 +36,39 @@ class ProjectedLine {
   Colour colour_;
   DrawPoint before_{};
   bool has_before_ = false;
+};
+
+/// Finds room for texts: inside of the picture, and not over one that stands there.
+class Labels {
+ public:
+  explicit Labels(Canvas& canvas) : canvas_(canvas) {}
+
+  void put(int x, int y, const std::string& text, Colour colour, bool dark_ground) {
+    if (text.empty()) return;
+    const int width = Canvas::text_width(text) + 2;
+    Box box{std::clamp(x, 0, std::max(0, canvas_.width() - width)), 0, width};
+    constexpr int rows[] = {0, 1, -1, 2, -2, 3, -3, 4};  // rows down from where it belongs
+    for (const int row : rows) {
+      box.y = std::clamp(y + row * text_height, 0, std::max(0, canvas_.height() - text_height));
+      const auto over = [&box](const Box& other) {
+        return box.x < other.x + other.width && other.x < box.x + box.width && std::abs(box.y - other.y) < text_height;
+      };
+      if (std::none_of(taken_.begin(), taken_.end(), over)) break;
+    }
+    taken_.push_back(box);
+    if (dark_ground) {
+      canvas_.label(box.x, box.y, text, colour);
+    } else {
+      canvas_.text(box.x, box.y, text, colour);
+    }
+  }
+
+ private:
+  struct Box {
+    int x, y, width;
+  };
+  Canvas& canvas_;
+  std::vector<Box> taken_;
 };
 
 /// Four letters at most, so that a crowd of rejected candidates stays readable.
@@ -65,11 +99,12 @@ void draw_branches(Canvas& canvas, const GroundProjection& projection, const Jun
   }
 }
 
-void draw_circle_observation(Canvas& canvas, const GroundProjection& projection, const CircleObservation& circle) {
+void draw_circle_observation(Canvas& canvas, Labels& labels, const GroundProjection& projection,
+                             const CircleObservation& circle) {
   PixelPoint pixel;
   if (!projection.pixel(circle.centre, pixel)) return;
   canvas.circle({pixel.u, pixel.v}, 8.0F, colours::cyan, 2);
-  canvas.label(static_cast<int>(pixel.u) + 10, static_cast<int>(pixel.v) - 6, "circle", colours::cyan);
+  labels.put(static_cast<int>(pixel.u) + 10, static_cast<int>(pixel.v) - 6, "circle", colours::cyan, true);
   if (!circle.has_half_line) return;
   for (const float side : {-0.4F, 0.4F}) {
     const GroundPoint end{circle.centre.x + side * std::cos(circle.half_line_direction),
@@ -85,6 +120,50 @@ void draw_hull(Canvas& canvas, const VisionResult& vision, const WorkToCamera& t
   canvas.polyline(corners, colours::blue, 2, true);
 }
 
+/// The end of a line that is too long: of a path it tells the most.
+std::string fitting(const std::string& line, int width) {
+  if (Canvas::text_width(line) <= width) return line;
+  std::size_t left_out = 1;
+  while (left_out < line.size() && Canvas::text_width("..." + line.substr(left_out)) > width) ++left_out;
+  return "..." + line.substr(left_out);
+}
+
+/// The codes beside the grey crosses of this picture, in lines that fit.
+std::vector<std::string> code_lines(const Features& features, int width) {
+  std::vector<JunctionRejection> told;
+  std::vector<std::string> lines;
+  for (const auto& candidate : features.rejections) {
+    if (std::find(told.begin(), told.end(), candidate.reason) != told.end()) continue;
+    told.push_back(candidate.reason);
+    std::string word = std::string(short_code(candidate.reason)) + ": " + to_string(candidate.reason);
+    std::replace(word.begin(), word.end(), '_', ' ');
+    if (lines.empty()) lines.emplace_back("x turned down as junction:");
+    if (Canvas::text_width(lines.back() + "  " + word) > width) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : "  ") + word;
+  }
+  return lines;
+}
+
+void draw_legend(Canvas& canvas, const OverlayInput& input, int left, int y) {
+  const std::pair<const char*, Colour> entries[] = {
+      {"pose, its field lines", colours::red}, {"truth", colours::cyan}, {"mirrored pose", colours::grey},
+      {"particles", colours::orange},          {"ROI", colours::blue},   {"skeleton", colours::green},
+      {"line points", colours::yellow}};
+  int column = 0;
+  for (const auto& [text, colour] : entries) {
+    const int x = left + column * (panel_width - 16) / 2;
+    canvas.rectangle(x, y, 9, 9, colour);
+    canvas.text(x + 14, y, text, colours::white);
+    y += column * text_height;
+    column = 1 - column;
+  }
+  y += column * text_height + 6;
+  for (const auto& line : code_lines(*input.vision->features, panel_width - 16)) {
+    canvas.text(left, y, line, colours::white);
+    y += text_height;
+  }
+}
+
 void draw_panel(Canvas& canvas, const OverlayInput& input, int left) {
   FieldMap map(canvas, *input.field, left + 8, 8, panel_width - 16, 220);
   map.particles(input.particles, colours::orange);
@@ -93,20 +172,35 @@ void draw_panel(Canvas& canvas, const OverlayInput& input, int left) {
   if (input.estimate.valid) map.pose(input.estimate.pose, colours::red);
   int y = 236;
   for (const auto& line : input.text) {
-    canvas.text(left + 8, y, line, colours::white);
+    canvas.text(left + 8, y, fitting(line, panel_width - 16), colours::white);
     y += text_height;
   }
-  const std::pair<const char*, Colour> legend[] = {{"pose, field lines seen from it", colours::red},
-                                                   {"truth", colours::cyan},
-                                                   {"particles", colours::orange},
-                                                   {"ROI", colours::blue},
-                                                   {"skeleton", colours::green},
-                                                   {"line points used", colours::yellow}};
-  y += 6;
-  for (const auto& [text, colour] : legend) {
-    canvas.rectangle(left + 8, y, 9, 9, colour);
-    canvas.text(left + 22, y, text, colours::grey);
-    y += text_height;
+  draw_legend(canvas, input, left + 8, y + 6);
+}
+
+void draw_features(Canvas& canvas, Labels& labels, const GroundProjection& projection, const Features& features,
+                   bool rejected) {
+  if (features.has_circle) draw_circle_observation(canvas, labels, projection, features.circle);
+  for (const auto& junction : features.junctions) {
+    const Colour colour = colour_of(junction.type);
+    const DrawPoint at{junction.pixel.u, junction.pixel.v};
+    draw_branches(canvas, projection, junction, colour);
+    canvas.circle(at, 6.0F, colour, 2);
+    const int percent = static_cast<int>(std::lround(junction.confidence * 100.0F));
+    labels.put(static_cast<int>(at.x) + 8, static_cast<int>(at.y) - 14,
+               std::string(to_string(junction.type)) + " " + std::to_string(percent), colour, true);
+  }
+  for (const auto& post : features.posts) {
+    const DrawPoint at{post.pixel.u, post.pixel.v};
+    canvas.circle(at, 7.0F, colours::yellow, 2);
+    labels.put(static_cast<int>(at.x) + 8, static_cast<int>(at.y) - 4, "post", colours::yellow, true);
+  }
+  if (!rejected) return;
+  for (const auto& candidate : features.rejections) {
+    const DrawPoint at{candidate.pixel.u, candidate.pixel.v};
+    canvas.cross(at, 3.0F, colours::grey);
+    labels.put(static_cast<int>(at.x) + 4, static_cast<int>(at.y) - 10, short_code(candidate.reason), colours::white,
+               false);
   }
 }
 
@@ -137,29 +231,8 @@ void draw_projected_field(Canvas& canvas, const GroundProjection& projection, co
 }
 
 void draw_features(Canvas& canvas, const GroundProjection& projection, const Features& features, bool rejected) {
-  if (rejected) {
-    for (const auto& candidate : features.rejections) {
-      const DrawPoint at{candidate.pixel.u, candidate.pixel.v};
-      canvas.cross(at, 3.0F, colours::grey);
-      canvas.text(static_cast<int>(at.x) + 4, static_cast<int>(at.y) - 10, short_code(candidate.reason),
-                  colours::white);
-    }
-  }
-  if (features.has_circle) draw_circle_observation(canvas, projection, features.circle);
-  for (const auto& junction : features.junctions) {
-    const Colour colour = colour_of(junction.type);
-    const DrawPoint at{junction.pixel.u, junction.pixel.v};
-    draw_branches(canvas, projection, junction, colour);
-    canvas.circle(at, 6.0F, colour, 2);
-    const int percent = static_cast<int>(std::lround(junction.confidence * 100.0F));
-    canvas.label(static_cast<int>(at.x) + 8, static_cast<int>(at.y) - 14,
-                 std::string(to_string(junction.type)) + " " + std::to_string(percent), colour);
-  }
-  for (const auto& post : features.posts) {
-    const DrawPoint at{post.pixel.u, post.pixel.v};
-    canvas.circle(at, 7.0F, colours::yellow, 2);
-    canvas.label(static_cast<int>(at.x) + 8, static_cast<int>(at.y) - 4, "post", colours::yellow);
-  }
+  Labels labels(canvas);
+  draw_features(canvas, labels, projection, features, rejected);
 }
 
 void draw_mask(Canvas& canvas, const ConstBitView& mask, const WorkToCamera& to_camera, Colour colour, float share) {
@@ -173,7 +246,7 @@ void draw_mask(Canvas& canvas, const ConstBitView& mask, const WorkToCamera& to_
 }
 
 /// A square for each junction that the field alone has told.
-void draw_known(Canvas& canvas, const std::vector<KnownJunction>& known) {
+void draw_known(Canvas& canvas, Labels& labels, const std::vector<KnownJunction>& known) {
   constexpr float half = 6.0F;
   for (const auto& [junction, source] : known) {
     if (source != JunctionSource::map) continue;
@@ -182,8 +255,8 @@ void draw_known(Canvas& canvas, const std::vector<KnownJunction>& known) {
     const DrawPoint corner[4] = {
         {u - half, v - half}, {u + half, v - half}, {u + half, v + half}, {u - half, v + half}};
     for (std::size_t i = 0; i < 4; ++i) canvas.line(corner[i], corner[(i + 1) % 4], colour, 2);
-    canvas.label(static_cast<int>(u + half) + 2, static_cast<int>(v), std::string(to_string(junction.type)) + " map",
-                 colour);
+    labels.put(static_cast<int>(u + half) + 2, static_cast<int>(v), std::string(to_string(junction.type)) + " map",
+               colour, true);
   }
 }
 
@@ -198,9 +271,10 @@ RgbImage draw_overlay(const OverlayInput& input) {
     view.disc({point.pixel.u, point.pixel.v}, 1.5F, colours::yellow);
   if (input.estimate.valid)
     draw_projected_field(view, vision.projection, *input.field, input.estimate.pose, colours::red);
-  draw_features(view, vision.projection, *vision.features, true);
-  draw_known(view, input.known);
-  Canvas sheet(picture.width + panel_width, std::max(picture.height, 480), colours::dark);
+  Labels labels(view);
+  draw_features(view, labels, vision.projection, *vision.features, true);
+  draw_known(view, labels, input.known);
+  Canvas sheet(picture.width + panel_width, std::max(picture.height, panel_height), colours::dark);
   sheet.paste(view.image(), 0, 0);
   draw_panel(sheet, input, picture.width);
   return sheet.image();

@@ -78,6 +78,15 @@ TEST_CASE("every command has a help with an example, and help is no error") {
   }
 }
 
+TEST_CASE("version and help in the words that people try first") {
+  CHECK(run({"--version"}).status == 0);
+  CHECK(run({"--version"}).out.starts_with("touchline 0."));
+  CHECK(run({"help"}).out == run({"--help"}).out);
+  CHECK(run({"help", "evaluate"}).out == run({"evaluate", "--help"}).out);
+  CHECK(run({"help", "evaluate"}).status == 0);
+  CHECK(run({"help", "fly"}).out == run({"--help"}).out);
+}
+
 TEST_CASE("bad usage is status 2, in one line of the program's own") {
   check_refused(run({"evaluate"}), "evaluate DATASET is required; see touchline evaluate --help");
   check_refused(run({"locate", "x.png"}), "locate --camera is required");
