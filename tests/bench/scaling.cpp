@@ -83,7 +83,7 @@ void time_localizer(benchmark::State& state, const FramePool& pool, int particle
   config.particles = particles;
   require(localizer->configure(config, seen.field), "localizer");
   const Prior near{.kind = PriorKind::pose, .pose = seen.truth, .sigma_xy = 0.1F, .sigma_theta = radians(5.0F)};
-  localizer->reset(tracking ? near : Prior{}, 1);
+  (void)localizer->reset(tracking ? near : Prior{}, 1);
   LocalizerInput input;
   input.has_yaw = true;
   input.yaw = seen.truth.theta;

@@ -27,7 +27,8 @@ run_tests() {
 gate_format() { bash tests/gates/format.sh; }
 # The README's command, word for word; g++ with -O3.
 gate_test() { quietly "$checks/test.log" env -u MAKEFLAGS -u MAKELEVEL make test && grep -E 'tests passed|Total Test time' "$checks/test.log"; }
-gate_clang() { configure clang clang clang++ && compile clang && run_tests clang; }
+# The benchmark is no part of the usual build, and would rot without this.
+gate_clang() { configure clang clang clang++ && compile clang && compile clang --target bench_programs && run_tests clang; }
 # The core and its tests, with nothing of a vendor or of the host tools.
 gate_core() {
   configure core gcc g++ -DTOUCHLINE_BACKENDS=OFF -DTOUCHLINE_HOST=OFF && compile core && run_tests core || return 1
