@@ -84,8 +84,9 @@ Result<GaitFrame> decode_gait_frame(Bytes stuffed) {
 Result<GaitFrame> GaitDecoder::push(std::uint8_t byte) {
   if (byte != 0) {
     if (size_ < bytes_.size()) bytes_[size_] = byte;
-    if (size_ <= bytes_.size()) ++size_;
-    return Status::not_ready;
+    if (++size_ < overlong) return Status::not_ready;
+    size_ = bytes_.size() + 1;
+    return Status::corrupt;
   }
   const std::size_t size = size_;
   const bool was_synchronised = synchronised_;

@@ -30,15 +30,19 @@ struct GaitFrame {
 /// Cuts the stream at the zero bytes. A frame that is too long is dropped as a whole.
 class GaitDecoder {
  public:
-  /// not_ready: the frame goes on. ok: it ended and is good. corrupt, unsupported: it ended and is not; what came
-  /// before the first zero byte is not reported, since a port is usually opened in the middle of a frame.
+  /// not_ready: the frame goes on. ok: it ended and is good. corrupt, unsupported: it ended and is not, or it is longer
+  /// than any frame (said once each `overlong` bytes). The rest of a frame before the first zero byte is not reported,
+  /// since a port is usually opened in the middle of one.
   Result<GaitFrame> push(std::uint8_t byte);
   /// Forgets a frame that has begun; after the port was opened anew.
   void reset();
 
  private:
   std::array<std::uint8_t, gait_stuffed_bytes> bytes_{};
-  std::size_t size_ = 0;       // of the frame so far; one more than fits: too long
+  /// Bytes without a zero, as of a wrong baud rate: never less than two frames whose zero was lost.
+  static constexpr std::size_t overlong = 4 * gait_stuffed_bytes;
+
+  std::size_t size_ = 0;       // of the frame so far, up to `overlong`
   bool synchronised_ = false;  // a zero byte has been seen
 };
 

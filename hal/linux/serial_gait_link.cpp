@@ -44,6 +44,7 @@ Status SerialGaitLink::do_open() {
   const Status status = configure_port();
   if (status != Status::ok) return status;
   stream_.line_reset();
+  arrival_ = framed_ = clock_.now();
   ++opened_;
   return Status::ok;
 }
@@ -91,12 +92,19 @@ Result<GaitSample> SerialGaitLink::do_read() {
   for (int i = 0; i < max_chunks; ++i) {
     while (next_ < size_) {
       const Result<GaitSample> sample = stream_.push(bytes_[next_++], arrival_);
+      if (!sample.ok() && sample.status() != Status::stale) continue;
+      framed_ = arrival_;
       if (sample.ok()) return sample;
     }
     const Status status = refill();
     if (status != Status::ok) return status;
   }
   return Status::not_ready;
+}
+
+const char* SerialGaitLink::silence() const {
+  if (descriptor_ < 0 || arrival_ == framed_) return "no bytes arrive";
+  return "bytes arrive, but no frame: compare gait.baud with the controller's, and what it sends with touchline_gait.h";
 }
 
 DeviceHealth SerialGaitLink::do_health() const {

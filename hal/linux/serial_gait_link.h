@@ -32,6 +32,8 @@ class SerialGaitLink final : public GaitLink {
   SerialGaitLink& operator=(const SerialGaitLink&) = delete;
 
   [[nodiscard]] const char* problem() const { return problem_.text(); }
+  /// Why there are no frames, as far as that can be told from here: no bytes at all, or bytes that are no frame.
+  [[nodiscard]] const char* silence() const;
 
  private:
   /// What the kernel's tty buffer hands over at most in one read.
@@ -59,6 +61,7 @@ class SerialGaitLink final : public GaitLink {
   std::size_t size_ = 0;
   std::size_t next_ = 0;
   MonotonicNs arrival_ = 0;
+  MonotonicNs framed_ = 0;  // arrival of the bytes that held the newest frame, or the opening
 };
 
 }  // namespace touchline

@@ -4,6 +4,8 @@
 #include <libv4l2.h>
 #include <linux/videodev2.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 
 #include <cmath>
 
@@ -34,6 +36,13 @@ bool is_native(int descriptor, std::uint32_t format) {
     if (entry.pixelformat == format) return (entry.flags & V4L2_FMT_FLAG_EMULATED) == 0;
   }
   return false;
+}
+
+/// A path that leads to a thing that is no video device: libv4l2 would complain of it on standard error, at each try.
+bool is_something_else(const char* path) {
+  constexpr unsigned video_major = 81;  // linux/major.h, VIDEO_MAJOR
+  struct stat what {};
+  return ::stat(path, &what) == 0 && !(S_ISCHR(what.st_mode) && major(what.st_rdev) == video_major);
 }
 
 bool has_name(int descriptor, const std::string& name) {
@@ -69,6 +78,8 @@ Status V4l2Camera::open_device() {
   path_[0] = '\0';
   const std::string& device = config_.device;
   if (device.starts_with('/')) {
+    errno = ENODEV;
+    if (is_something_else(device.c_str())) return fail(Status::disconnected, "no video device at");
     std::snprintf(path_.data(), path_.size(), "%s", device.c_str());
     descriptor_ = v4l2_open(path_.data(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     return descriptor_ >= 0 ? Status::ok : fail(Status::disconnected, "open");

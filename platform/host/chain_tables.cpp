@@ -41,8 +41,12 @@ void read_model_coefficients(KeyReader& keys, bool given, LensParameters& lens) 
   static constexpr const char* k_names[] = {"k1", "k2", "k3", "k4"};
   const bool kannala_brandt = lens.model == LensModel::kannala_brandt;
   for (std::size_t i = 0; i < 4; ++i) {  // checked in any case: a frame may switch to a model without them
-    const double k = keys.number(k_names[i], {-1e3, 1e3, "give the model's coefficient"},
-                                 kannala_brandt ? needed(lens.k[i]) : std::optional(0.0));
+    const bool first = i == 0;           // of a model that is new here; those that are left out are 0
+    const std::optional<double> left_out = given ? static_cast<double>(lens.k[i]) : 0.0;
+    const double k = keys.number(k_names[i], {-1e3, 1e3, "give the model's coefficients, k1 to k4"},
+                                 kannala_brandt && first ? needed(lens.k[i])
+                                 : kannala_brandt        ? left_out
+                                                         : 0.0);
     if (kannala_brandt) lens.k[i] = as_float(k);
   }
 }
@@ -157,7 +161,10 @@ NamedField read_field(KeyReader& top, const std::optional<NamedField>& fallback,
   }
   KeyReader keys = top.inner("field");
   keys.expect({"preset"});
-  for (const auto& key : field_keys) keys.expect({key.name, key.with_unit});
+  for (const auto& key : field_keys) {
+    keys.expect({key.with_unit});  // without notes, in the robot's file, the names that its example has are told alone
+    if (notes != nullptr) keys.expect({key.name});
+  }
   if (notes != nullptr) notes->add(keys);
   std::optional<NamedField> base = fallback;
   const std::string name = keys.text("preset", "");

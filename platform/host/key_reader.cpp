@@ -31,7 +31,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string shown(const nlohmann::json& value) {
   if (value.is_number_float() && std::isnan(value.get<double>())) return "NaN";
-  const std::string text = value.is_number_float() && std::isinf(value.get<double>()) ? "infinity" : value.dump();
+  if (value.is_binary()) return {value.get_binary().begin(), value.get_binary().end()};  // a date or a time
+  if (value.is_number_float() && std::isinf(value.get<double>())) {
+    return value.get<double>() < 0.0 ? "-infinity" : "infinity";
+  }
+  const std::string text = value.dump();
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
@@ -112,7 +116,7 @@ void KeyReader::fail_missing(const std::string& key, const std::string& remedy) 
 }
 
 const nlohmann::json* KeyReader::find(const char* key) {
-  asked_.emplace_back(key);
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
   if (log_ != nullptr) log_->push_back(path_of(key));
   const auto found = table_->find(key);
   return found == table_->end() ? nullptr : &*found;
@@ -273,8 +277,26 @@ const nlohmann::json& KeyReader::table(const char* key) {
 
 KeyReader KeyReader::inner(const char* key) { return {table(key), place_, path_of(key), log_}; }
 
+/// The other tables of the file that have a key of this name: "[imu], [gait]".
+std::string KeyReader::homes_of(const std::string& key) const {
+  std::vector<std::string> homes;
+  std::string text;
+  if (place_.everything == nullptr) return text;
+  for (const auto& path : *place_.everything) {
+    const std::size_t dot = path.rfind('.');
+    if (dot == std::string::npos || path.substr(dot + 1) != key || path.substr(0, dot) == name_) continue;
+    const std::string home = std::string("[").append(path, 0, dot).append("]");
+    if (std::find(homes.begin(), homes.end(), home) != homes.end()) continue;
+    homes.push_back(home);
+    text.append(text.empty() ? "" : ", ").append(home);
+  }
+  return text;
+}
+
 void KeyReader::expect(std::initializer_list<const char*> keys) {
-  asked_.insert(asked_.end(), keys.begin(), keys.end());
+  for (const char* key : keys) {
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
+  }
 }
 
 std::vector<UnknownKey> KeyReader::unknown_keys() const {
@@ -284,7 +306,11 @@ std::vector<UnknownKey> KeyReader::unknown_keys() const {
     std::string text = in_table(key);
     text.append(value.is_object() ? ": unknown table" : ": unknown key");
     const std::string near = nearest_word(key, asked_);
-    if (!near.empty()) {
+    const std::string homes = homes_of(key);
+    if (!homes.empty()) {
+      text.append("; it belongs to ").append(homes);
+      if (!near.empty()) text.append("; or did you mean ").append(near).append("?");
+    } else if (!near.empty()) {
       text.append("; did you mean ").append(near).append("?");
     } else {
       text.append("; known are");

@@ -30,11 +30,15 @@ struct NumberRange {
   const char* remedy = nullptr;  // null: the range says it
 };
 
+/// Every key that was asked for, as "table.key".
+using KeyLog = std::vector<std::string>;
+
 /// Where a table stands.
 struct Place {
   std::string file;
   int line = 0;                                       // of all of it, as in frames.jsonl; 0: see `lines`
   const std::map<std::string, int>* lines = nullptr;  // by "table.key", of a TOML file; outlives the reader
+  const KeyLog* everything = nullptr;  // that the file may have, to tell where a key belongs; outlives it
 };
 
 /// A key that nobody asked for, or about which there is something else to say.
@@ -43,9 +47,6 @@ struct UnknownKey {
   std::string place;  // "file:line: "
   std::string text;   // "[field] penalty_mrk: unknown key; did you mean penalty_mark?"
 };
-
-/// Every key that was asked for, as "table.key".
-using KeyLog = std::vector<std::string>;
 
 class KeyReader {
  public:
@@ -98,6 +99,7 @@ class KeyReader {
   [[nodiscard]] std::string in_table(const std::string& key) const {
     return name_.empty() ? key : "[" + name_ + "] " + key;
   }
+  [[nodiscard]] std::string homes_of(const std::string& key) const;
   [[nodiscard]] std::string place_of(const std::string& key) const;
   [[noreturn]] void fail_missing(const std::string& key, const std::string& remedy) const;
   [[nodiscard]] std::string without_nul(const char* key, const nlohmann::json& value) const;

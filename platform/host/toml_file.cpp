@@ -37,9 +37,10 @@ nlohmann::json to_json(const toml::node& node, const std::string& name, TomlLine
   if (const auto* integer = node.as_integer()) return integer->get();
   if (const auto* number = node.as_floating_point()) return number->get();
   if (const auto* truth = node.as_boolean()) return truth->get();
-  std::ostringstream text;
-  node.visit([&text](const auto& value) { text << value; });
-  return text.str();
+  std::ostringstream date;  // or a time: no type of JSON, and no text either
+  node.visit([&date](const auto& value) { date << value; });
+  const std::string text = date.str();
+  return nlohmann::json::binary({text.begin(), text.end()});
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace touchline::host {
 /// The line of each key, by "table.key".
 using TomlLines = std::map<std::string, int>;
 
-/// Throws HostError: the file is missing (then with `remedy`), a folder, or broken (with its line). Dates become
-/// strings; NaN and infinity stay numbers.
+/// Throws HostError: the file is missing (then with `remedy`), a folder, or broken (with its line). Dates and
+/// times become binary values (their text), which no reader takes for a string; NaN and infinity stay numbers.
 nlohmann::json read_toml(const std::filesystem::path& path, const std::string& remedy, TomlLines& lines);
 
 }  // namespace touchline::host

@@ -6,12 +6,15 @@
 #include <cerrno>
 #include <cstring>
 #include <ostream>
+#include <vector>
 
 #include "hal/linux/device_list.h"
 #include "hal/linux/gpio_lines.h"
 #include "platform/host/host_error.h"
 #include "platform/sbc/daemon.h"
+#include "platform/sbc/goal_yaw_file.h"
 #include "platform/sbc/service.h"
+#include "platform/sbc/udp_address.h"
 
 namespace touchline::sbc {
 namespace {
@@ -31,6 +34,23 @@ void check_all_written(const Publisher& publisher) {
       (publisher.line_error() == EAGAIN ? "the reader was too slow" : std::strerror(publisher.line_error())));
 }
 
+/// What may well be right on the robot, where this is checked on another machine.
+void add_notes_of_this_machine(const RobotFile& file, std::vector<std::string>& notes) {
+  const long cores = ::sysconf(_SC_NPROCESSORS_CONF);
+  if (cores > 0 && file.realtime.cpu >= cores) {
+    notes.push_back("[realtime] cpu = " + std::to_string(file.realtime.cpu) + ": this machine has the cores 0 to " +
+                    std::to_string(cores - 1));
+  }
+  for (const std::string& text : file.output.udp) {
+    UdpAddress address;
+    if (!parse_udp_address(text, address).empty() || address.find_interface()) continue;
+    notes.push_back("[output] udp \"" + text + "\": this machine has no network interface " + address.interface());
+  }
+  if (file.panel_backend == PanelBackend::none) return;
+  const std::string problem = GoalYawFile(file.goal_yaw_file, file.imu_keeps_zero).folder_problem();
+  if (!problem.empty()) notes.push_back("[panel] state_file: " + problem);
+}
+
 void section(std::ostream& out, const char* title, const std::string& text) {
   out << title << "\n" << (text.empty() ? "  none found\n" : text);
 }
@@ -40,7 +60,7 @@ void section(std::ostream& out, const char* title, const std::string& text) {
 int run_robot(const RunCommand& command, std::ostream& err) {
   const Signals signals;
   Daemon daemon(command.file, STDOUT_FILENO, STDERR_FILENO);
-  for (const std::string& sentence : daemon.file().assumed) {
+  for (const std::string& sentence : daemon.file().notes) {
     err << "touchline: note: " << command.file << ": " << sentence << "\n" << std::flush;
   }
   const std::string problems = apply_realtime(daemon.file().realtime);
@@ -61,8 +81,10 @@ int run_robot(const RunCommand& command, std::ostream& err) {
 int check_robot(const std::string& path, std::ostream& out) {
   const RobotFile file = read_robot_file(path);
   const bool replayed = file.camera_backend == CameraBackend::replay;
-  out << path << (file.assumed.empty() ? " is good.\n" : " has no mistake, but is not all about your robot:\n");
-  for (const std::string& sentence : file.assumed) out << "  note: " << sentence << "\n";
+  std::vector<std::string> notes = file.notes;
+  add_notes_of_this_machine(file, notes);
+  out << path << (notes.empty() ? " is good.\n" : " has no mistake, but see the notes:\n");
+  for (const std::string& sentence : notes) out << "  note: " << sentence << "\n";
   out << "  camera  " << (replayed ? "replay of " + file.replay_folder.string() : file.camera.device) << ", "
       << file.camera.width << "x" << file.camera.height << "\n  imu     " << name_of(file.imu_backend) << "\n  gait    "
       << name_of(file.gait_backend) << "\n  panel   " << (file.panel_backend == PanelBackend::gpiod ? "gpiod" : "none")

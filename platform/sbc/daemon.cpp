@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <set>
 
 #include "hal/linux/gpio_panel.h"
 #include "hal/linux/hid_imu.h"
@@ -67,6 +68,7 @@ const char* DeviceSet::detail(Fault fault) const {
     case Fault::camera_size:
     case Fault::camera_stalled: return parts.camera != nullptr ? parts.camera->problem() : "";
     case Fault::imu_missing: return parts.imu != nullptr ? parts.imu->problem() : "";
+    case Fault::gait_silent: return parts.gait != nullptr ? parts.gait->silence() : "";
     case Fault::gait_missing: return parts.gait != nullptr ? parts.gait->problem() : "";
     case Fault::panel_missing: return parts.panel != nullptr ? parts.panel->problem() : "";
     default: return "";
@@ -93,6 +95,8 @@ Daemon::Daemon(const std::filesystem::path& path, int out, int log)
 Daemon::~Daemon() = default;
 
 void Daemon::load_goal_yaw() {
+  const std::string unreachable = goal_yaw_file_.folder_problem();
+  if (!unreachable.empty()) log_.say("[panel] state_file: ", unreachable, "");
   const GoalYawFile::Loaded loaded = goal_yaw_file_.load();
   if (!loaded.problem.empty()) log_.say("the goal's yaw: ", loaded.problem, "");
   if (!loaded.found) return;
@@ -135,6 +139,25 @@ bool Daemon::turn() {
   return true;
 }
 
+namespace {
+
+/// Changed parts of the file that are read at the start alone, in words; empty when there are none.
+std::string left_for_restart(const RobotFile& running, const RobotFile& now) {
+  std::set<std::string> changed;
+  for (const auto* one : {&running, &now}) {
+    const auto& other = one == &running ? now.fixed_parts : running.fixed_parts;
+    for (const auto& [name, text] : one->fixed_parts) {
+      const auto found = other.find(name);
+      if (found == other.end() || found->second != text) changed.insert(name);
+    }
+  }
+  std::string words;
+  for (const auto& name : changed) words.append(words.empty() ? "" : ", ").append(name);
+  return words.empty() ? words : words + " changed too, which takes a restart";
+}
+
+}  // namespace
+
 void Daemon::reload() {
   const char* what = nullptr;
   try {
@@ -146,7 +169,7 @@ void Daemon::reload() {
     config.localizer = file.robot.localizer;
     if (loop_->configure(config, &what) == Status::ok) {
       file_.robot = config;
-      log_.say("thresholds read again from ", path_.string(), "");
+      log_.say("thresholds read again from ", path_.string(), left_for_restart(file_, file));
     } else {
       log_.say("thresholds stay: ", path_.string(), what != nullptr ? what : "refused");
     }

@@ -44,6 +44,15 @@ GoalYawFile::GoalYawFile(const std::filesystem::path& path, bool keeps_zero) : p
   if (boot_.empty() || boot_.size() > 40) boot_ = any_boot;
 }
 
+std::string GoalYawFile::folder_problem() const {
+  if (path_.empty()) return {};
+  const std::filesystem::path parent = std::filesystem::path(path_).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (::access((folder + "/").c_str(), W_OK | X_OK) == 0) return {};
+  return "the goal's yaw cannot be kept in " + folder + ": " + std::strerror(errno) +
+         "; make the folder, or name another file";
+}
+
 GoalYawFile::Loaded GoalYawFile::load() const {
   Loaded loaded;
   const int file = path_.empty() ? -1 : ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);

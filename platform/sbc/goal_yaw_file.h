@@ -26,6 +26,8 @@ class GoalYawFile {
 
   [[nodiscard]] bool used() const { return !path_.empty(); }
   [[nodiscard]] const char* path() const { return path_.c_str(); }
+  /// Why a press could not be kept: its folder is missing, or may not be written. Empty when there is no reason.
+  [[nodiscard]] std::string folder_problem() const;
   /// Never throws for what is on the disk.
   [[nodiscard]] Loaded load() const;
   /// Writes beside the file and renames, so that a reader sees the old line or the new one. Waits for no disk and

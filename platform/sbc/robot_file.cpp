@@ -2,6 +2,8 @@
 // The robot's file as a whole, and the tables that are about the program and no device.
 #include "platform/sbc/robot_file.h"
 
+#include <map>
+
 #include <nlohmann/json.hpp>
 
 #include "platform/host/host_error.h"
@@ -20,6 +22,9 @@ void read_output(KeyReader table, RobotFile& file) {
     if (!wrong.empty()) table.fail("udp", wrong);
   }
   table.finish();
+  if (!file.output.standard_output && file.output.udp.empty()) {
+    file.notes.emplace_back("[output] stdout = false and no udp: the poses go nowhere");
+  }
 }
 
 void read_realtime(KeyReader table, RobotFile& file) {
@@ -51,28 +56,62 @@ class Mistakes {
   std::string text_;
 };
 
-}  // namespace
-
-RobotFile read_robot_file(const std::filesystem::path& path, std::vector<std::string>* keys) {
-  host::TomlLines lines;
-  const nlohmann::json root = host::read_toml(path, "give the path of the robot's TOML file", lines);
-  KeyReader top(root, {path.string(), 0, &lines}, "", keys);
+RobotFile read_tables(KeyReader& top, const std::filesystem::path& folder) {
   RobotFile file;
   Mistakes mistakes;
   // The camera first: a replayed set brings field, lens and mount along, and without it they cannot be judged.
-  read_camera(top.inner("camera"), file, path.parent_path());
+  read_camera(top.inner("camera"), file, folder);
   mistakes.in([&] { read_field(top, file); });
   mistakes.in([&] { read_lens(top.inner("lens"), file); });
   mistakes.in([&] { read_mount(top.inner("mount"), file); });
   mistakes.in([&] { read_imu(top.inner("imu"), file); });
   mistakes.in([&] { read_gait(top.inner("gait"), file); });
-  mistakes.in([&] { read_panel(top.inner("panel"), file, path.parent_path()); });
+  mistakes.in([&] { read_panel(top.inner("panel"), file, folder); });
   mistakes.in([&] { read_vision(top.inner("vision"), file); });
   mistakes.in([&] { read_localization(top.inner("localization"), file); });
   mistakes.in([&] { read_output(top.inner("output"), file); });
   mistakes.in([&] { read_realtime(top.inner("realtime"), file); });
   mistakes.in([&] { top.finish(); });
   mistakes.tell();
+  return file;
+}
+
+/// Every key that a robot's file may have.
+host::KeyLog all_keys() {
+  host::KeyLog keys;
+  const nlohmann::json empty = nlohmann::json::object();
+  KeyReader top(empty, {}, "", &keys);
+  (void)read_tables(top, "");
+  return keys;
+}
+
+/// The text of each part of the file that is read at the start alone.
+std::map<std::string, std::string> fixed_parts(const nlohmann::json& root) {
+  std::map<std::string, std::string> parts;
+  const auto text = [](const nlohmann::json& value) {
+    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
+  for (const auto& [name, value] : root.items()) {
+    if (name != "vision" && name != "localization") parts["[" + name + "]"] = text(value);
+  }
+  for (const char* key : {"prior", "seed"}) {
+    const auto localization = root.find("localization");
+    if (localization != root.end() && localization->contains(key)) {
+      parts[std::string("[localization] ") + key] = text((*localization)[key]);
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+RobotFile read_robot_file(const std::filesystem::path& path, std::vector<std::string>* keys) {
+  host::TomlLines lines;
+  const nlohmann::json root = host::read_toml(path, "give the path of the robot's TOML file", lines);
+  const host::KeyLog everything = all_keys();
+  KeyReader top(root, {path.string(), 0, &lines, &everything}, "", keys);
+  RobotFile file = read_tables(top, path.parent_path());
+  file.fixed_parts = fixed_parts(root);
   return file;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ enum class PanelBackend { none, gpiod };
 
 struct OutputConfig {
   bool standard_output = true;
-  std::vector<std::string> udp;  // "192.168.0.5:7777", "[fe80::1]:7777"; none: nothing leaves the robot
+  std::vector<std::string> udp;  // "192.168.0.5:7777", "[fe80::1%wlan0]:7777"; none: nothing leaves the robot
 };
 
 struct RealtimeConfig {
@@ -49,7 +50,8 @@ struct RobotFile {
   ButtonTiming button;
   OutputConfig output;
   RealtimeConfig realtime;
-  std::vector<std::string> assumed;  // sentences about lens, mount and field where they are the defaults
+  std::vector<std::string> notes;  // what is no mistake, but hardly meant: lens, mount and field that are the defaults
+  std::map<std::string, std::string> fixed_parts;  // the text of "[camera]" and so on: what SIGHUP does not read again
 };
 
 /// Reads and checks the whole file. Throws host::HostError: it names file, line, key and remedy. `keys`, when not null,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of field, vision and localization.
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "platform/host/chain_tables.h"
@@ -9,14 +11,19 @@
 namespace touchline::sbc {
 namespace {
 
-HsvRange read_range(KeyReader& table, const char* key, const HsvRange& fallback) {
+/// Six numbers; `wraps`: the hue's low may be above its high.
+HsvRange read_range(KeyReader& table, const char* key, bool wraps, const HsvRange& fallback) {
   const std::vector<double> v = table.numbers(key, 6, 6);
   if (v.empty()) return fallback;
   for (const double value : v) {
-    if (value < 0.0 || value > 255.0) table.fail(key, "holds a number outside 0 to 255; hue counts 0 to 179");
+    if (value < 0.0 || value > 255.0 || value != std::floor(value)) {
+      table.fail(key, "holds a number outside 0 to 255, or no whole one; hue counts 0 to 179");
+    }
   }
   if (v[0] > 179.0 || v[1] > 179.0) table.fail(key, "has a hue above 179; hue counts 0 to 179, 2 degrees a step");
-  if (v[2] > v[3] || v[4] > v[5]) table.fail(key, "has a low bound above the high one; write h, h, s, s, v, v");
+  // Hue is a circle: a range of it may go over 0, where the chain can do with that.
+  if ((!wraps && v[0] > v[1]) || v[2] > v[3] || v[4] > v[5])
+    table.fail(key, "has a low bound above the high one; write h, h, s, s, v, v");
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(v[i]); };
   return {byte(0), byte(1), byte(2), byte(3), byte(4), byte(5)};
 }
@@ -65,7 +72,7 @@ void read_field(KeyReader& top, RobotFile& file) {
   file.robot.field = host::read_field(top, fallback, nullptr).dimensions;
   tell_vision(file.robot.field, file.robot.vision);
   if (!named && file.camera_backend != CameraBackend::replay) {
-    file.assumed.emplace_back("[field] is the default, preset = \"small-2026\"; name yours");
+    file.notes.emplace_back("[field] is the default, preset = \"small-2026\"; name yours");
   }
 }
 
@@ -73,8 +80,8 @@ void read_vision(KeyReader table, RobotFile& file) {
   VisionConfig& vision = file.robot.vision;
   vision.kernels = fastest_kernels();
   vision.fifo_depth = table.integer("fifo_depth", 1, 4, vision.fifo_depth);  // the daemon's storage holds four
-  vision.green = read_range(table, "green_hsv", vision.green);
-  vision.yellow_post = read_range(table, "yellow_post_hsv", vision.yellow_post);
+  vision.green = read_range(table, "green_hsv", false, vision.green);
+  vision.yellow_post = read_range(table, "yellow_post_hsv", true, vision.yellow_post);
   vision.white_posts = table.flag("white_posts", vision.white_posts);
   vision.green_erode_px = odd(table, "green_erode_px", vision.green_erode_px);
   vision.green_dilate_px = odd(table, "green_dilate_px", vision.green_dilate_px);

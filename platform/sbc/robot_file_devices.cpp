@@ -10,15 +10,87 @@
 namespace touchline::sbc {
 namespace {
 
-CameraControl read_control(KeyReader& table, const char* mode_key, const char* value_key, int high) {
+/// `low` is the least that a fixed one may be.
+CameraControl read_control(KeyReader& table, const char* mode_key, const char* value_key, int low, int high) {
   using Mode = CameraControl::Mode;
   constexpr Mode modes[] = {Mode::leave, Mode::automatic, Mode::fixed};
   CameraControl control;
   control.mode = modes[table.choice(mode_key, {"leave", "auto", "fixed"}, 0)];
   const bool has_value = table.has(value_key);
   control.value = table.integer(value_key, 0, high, 0);
-  if (control.mode == Mode::fixed && !has_value) table.fail(value_key, "is missing; a fixed control needs its value");
+  if (control.mode == Mode::fixed && control.value < low) {
+    table.fail(value_key, std::string(has_value ? "is 0" : "is missing") + "; a fixed control needs its value");
+  }
+  if (control.mode != Mode::fixed && control.value != 0) {
+    table.fail(value_key, std::string("is not used; set ") + mode_key + " = \"fixed\", or leave it out");
+  }
   return control;
+}
+
+/// A name that is used cannot be empty.
+std::string read_name(KeyReader& table, const char* key, const std::string& fallback, bool used) {
+  std::string name = table.text(key, fallback);
+  if (used && name.empty()) table.fail(key, "is empty; see `touchline devices` for what is plugged in");
+  return name;
+}
+
+/// Of a coefficient, as the example has it: nothing but 0, and 1 for the linear term of b.
+bool is_default(const char* key, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != (std::string_view(key) == "b" && i == 1 ? 1.0 : 0.0)) return false;
+  }
+  return true;
+}
+
+/// Coefficients that stand in the file, but belong to another model than the one that is set.
+void refuse_unused_coefficients(KeyReader& table, LensModel model) {
+  struct Owner {
+    const char* key;
+    LensModel model;
+    const char* name;
+  };
+  constexpr Owner owners[] = {{"k1", LensModel::kannala_brandt, "kannala_brandt"},
+                              {"k2", LensModel::kannala_brandt, "kannala_brandt"},
+                              {"k3", LensModel::kannala_brandt, "kannala_brandt"},
+                              {"k4", LensModel::kannala_brandt, "kannala_brandt"},
+                              {"alpha", LensModel::barrel, "barrel"},
+                              {"a", LensModel::polynomial, "polynomial"},
+                              {"b", LensModel::polynomial, "polynomial"}};
+  for (const Owner& owner : owners) {
+    if (model == owner.model || !table.has(owner.key)) continue;
+    const bool list = owner.model == LensModel::polynomial;
+    const auto values = list ? table.numbers(owner.key, 1, 8) : std::vector{table.number(owner.key, -1e9, 1e9, 0.0)};
+    if (is_default(owner.key, values)) continue;
+    table.fail(owner.key, std::string("is of model = \"") + owner.name +
+                              "\", but another one is set; set that model, or leave the key out");
+  }
+}
+
+/// What the lens's own check cannot know: the size of the picture, and what stands in the file.
+void check_lens(KeyReader& table, const RobotFile& file) {
+  const LensParameters& lens = file.robot.lens;
+  const auto far = [](float centre, int size) {
+    const auto side = static_cast<float>(size);
+    return centre < -side || centre > 2.0F * side;
+  };
+  if (far(lens.cx, file.camera.width)) {
+    table.fail(table.either("cx_px", "cx"), "is far outside the picture, which is " +
+                                                std::to_string(file.camera.width) +
+                                                " pixels wide; check it against the lens's calibration");
+  }
+  if (far(lens.cy, file.camera.height)) {
+    table.fail(table.either("cy_px", "cy"), "is far outside the picture, which is " +
+                                                std::to_string(file.camera.height) +
+                                                " pixels high; check it against the lens's calibration");
+  }
+  const bool pinhole =
+      lens.model == LensModel::rectilinear || lens.model == LensModel::barrel || lens.model == LensModel::polynomial;
+  if (pinhole && table.number("max_theta_deg", 1.0, 180.0, 1.0) >= 90.0) {
+    table.fail("max_theta_deg",
+               "is 90 or more, which a lens of this model never sees; choose less, or the model of a "
+               "fish-eye lens");
+  }
+  refuse_unused_coefficients(table, lens.model);
 }
 
 std::string shown(float value) {
@@ -47,11 +119,14 @@ void adopt_dataset(RobotFile& file) {
   file.gait_backend = GaitBackend::replay;
 }
 
-HidField read_hid_field(KeyReader& parent, const char* key, bool present) {
+HidField read_hid_field(KeyReader& parent, const char* key, bool present, bool numbered) {
   KeyReader table = parent.inner(key);
   HidField field;
   field.present = present;
   field.offset = static_cast<std::uint8_t>(table.integer("offset", 0, 63, 0));
+  if (present && numbered && field.offset == 0) {
+    table.fail("offset", "is 0, where the report id is (it is 0 when left out, too); say where the number begins");
+  }
   constexpr HidNumber types[] = {HidNumber::int16, HidNumber::int32, HidNumber::float32};
   field.number = types[table.choice("type", {"int16", "int32", "float32"}, 0)];
   field.big_endian = table.flag("big_endian", false);
@@ -68,7 +143,7 @@ void read_custom_layout(KeyReader& table, HidReportLayout& layout) {
   for (const auto& [key, field] : {std::pair{"yaw", &layout.yaw}, std::pair{"roll", &layout.roll},
                                    std::pair{"pitch", &layout.pitch}, std::pair{"yaw_rate", &layout.yaw_rate}}) {
     const bool given = table.has(key);
-    const HidField read = read_hid_field(table, key, given);
+    const HidField read = read_hid_field(table, key, given, layout.report_id != 0);
     if (given) *field = read;
   }
   const float scale = table.real("quaternion_scale", 1e-9, 1e9, 1e-4F);
@@ -101,7 +176,7 @@ void read_camera(KeyReader table, RobotFile& file, const std::filesystem::path& 
     file.replay_folder = std::filesystem::path(replay).is_absolute() ? std::filesystem::path(replay) : folder / replay;
     adopt_dataset(file);
   }
-  camera.device = table.text("device", camera.device);
+  camera.device = read_name(table, "device", camera.device, file.camera_backend == CameraBackend::v4l2);
   camera.input = table.integer("input", -1, 63, camera.input);
   camera.width = table.integer("width_px", 16, max_frame_width, camera.width);
   camera.height = table.integer("height_px", 16, max_frame_height, camera.height);
@@ -109,9 +184,9 @@ void read_camera(KeyReader table, RobotFile& file, const std::filesystem::path& 
   const std::size_t own = file.camera_backend == CameraBackend::replay ? 1 : 0;
   camera.format = formats[table.choice("format", {"yuyv", "rgb24", "bgr24", "rgb565"}, own)];
   camera.rate_hz = table.number("rate_hz", 0.0, 500.0, camera.rate_hz);
-  camera.exposure = read_control(table, "exposure", "exposure_100us", 100000);
-  camera.gain = read_control(table, "gain", "gain_value", 100000);
-  camera.white_balance = read_control(table, "white_balance", "white_balance_kelvin", 20000);
+  camera.exposure = read_control(table, "exposure", "exposure_100us", 1, 100000);
+  camera.gain = read_control(table, "gain", "gain_value", 0, 100000);
+  camera.white_balance = read_control(table, "white_balance", "white_balance_kelvin", 1, 20000);
   RobotConfig& robot = file.robot;
   robot.camera_delay = table.milliseconds("delay_ms", -100.0, 1000.0, robot.camera_delay);
   robot.camera_stall = table.milliseconds("stall_ms", 100.0, 60000.0, robot.camera_stall);
@@ -135,11 +210,12 @@ void read_lens(KeyReader table, RobotFile& file) {
   }
   const LensParameters plain = lens;
   host::read_lens(table, true, lens);
+  check_lens(table, file);
   table.finish();
   if (!replayed && lens.model == plain.model && lens.focal_px == plain.focal_px && lens.cx == plain.cx &&
       lens.cy == plain.cy && lens.max_theta == plain.max_theta) {
-    file.assumed.push_back("[lens] is the default, a plain lens with model = \"rectilinear\" and focal_px = " +
-                           shown(lens.focal_px) + "; calibrate yours");
+    file.notes.push_back("[lens] is the default, a plain lens with model = \"rectilinear\" and focal_px = " +
+                         shown(lens.focal_px) + "; calibrate yours");
   }
 }
 
@@ -164,8 +240,8 @@ void read_mount(KeyReader table, RobotFile& file) {
   table.finish();
   if (file.camera_backend != CameraBackend::replay && mount.height == rest.height && mount.pitch == rest.pitch &&
       mount.roll == rest.roll && mount.yaw == rest.yaw && mount.x == rest.x && mount.y == rest.y) {
-    file.assumed.push_back("[mount] is the default, height_m = " + shown(mount.height) +
-                           " and pitch_deg = 0; measure yours");
+    file.notes.push_back("[mount] is the default, height_m = " + shown(mount.height) +
+                         " and pitch_deg = 0; measure yours");
   }
 }
 
@@ -189,6 +265,11 @@ void read_imu(KeyReader table, RobotFile& file) {
       table.fail("device", std::string("is no name: ") + error);
     if (const char* error = layout_error(layout)) table.fail("profile", std::string("cannot be read: ") + error);
   }
+  if (file.imu_backend == ImuBackend::hidapi && file.camera_backend == CameraBackend::replay) {
+    table.fail(
+        "backend",
+        "is \"hidapi\", but the camera is replayed, and that by a clock of its own; write \"replay\" or \"none\"");
+  }
   if (file.imu_backend == ImuBackend::replay && file.camera_backend != CameraBackend::replay) {
     table.fail("backend", "is \"replay\", but the camera is not replayed; set camera.backend as well");
   }
@@ -199,7 +280,7 @@ void read_gait(KeyReader table, RobotFile& file) {
   constexpr GaitBackend backends[] = {GaitBackend::none, GaitBackend::serial, GaitBackend::replay};
   file.gait_backend =
       backends[table.choice("backend", {"none", "serial", "replay"}, static_cast<std::size_t>(file.gait_backend))];
-  file.gait.device = table.text("device", file.gait.device);
+  file.gait.device = read_name(table, "device", file.gait.device, file.gait_backend == GaitBackend::serial);
   file.gait.baud = table.integer("baud", 1, 4000000, file.gait.baud);
   if (!is_known_baud(file.gait.baud)) table.fail("baud", "is no rate of a serial port; try 115200, 460800 or 1000000");
   file.gait.transport = table.milliseconds("transport_ms", 0.0, 1000.0, file.gait.transport);
@@ -210,6 +291,11 @@ void read_gait(KeyReader table, RobotFile& file) {
   robot.unknown_speed = table.real("unknown_speed_mps", 0.0, 5.0, robot.unknown_speed);
   robot.unknown_turn = table.angle("unknown_turn_deg_per_s", 0.0, 360.0, robot.unknown_turn);
   robot.has_gait = file.gait_backend != GaitBackend::none;
+  if (file.gait_backend == GaitBackend::serial && file.camera_backend == CameraBackend::replay) {
+    table.fail(
+        "backend",
+        "is \"serial\", but the camera is replayed, and that by a clock of its own; write \"replay\" or \"none\"");
+  }
   if (file.gait_backend == GaitBackend::replay && file.camera_backend != CameraBackend::replay) {
     table.fail("backend", "is \"replay\", but the camera is not replayed; set camera.backend as well");
   }
@@ -219,7 +305,7 @@ void read_gait(KeyReader table, RobotFile& file) {
 void read_panel(KeyReader table, RobotFile& file, const std::filesystem::path& folder) {
   GpioLinesConfig& panel = file.panel;
   file.panel_backend = table.choice("backend", {"none", "gpiod"}, 0) == 1 ? PanelBackend::gpiod : PanelBackend::none;
-  panel.chip = table.text("chip", panel.chip);
+  panel.chip = read_name(table, "chip", panel.chip, file.panel_backend == PanelBackend::gpiod);
   panel.button_line = table.integer("button_line", -1, 1023, panel.button_line);
   panel.button_active_low = table.flag("button_active_low", panel.button_active_low);
   panel.button_pull_up = table.flag("button_pull_up", panel.button_pull_up);
@@ -231,6 +317,9 @@ void read_panel(KeyReader table, RobotFile& file, const std::filesystem::path& f
   file.robot.has_panel = file.panel_backend != PanelBackend::none;
   if (file.robot.has_panel && panel.button_line < 0 && panel.led_line < 0) {
     table.fail("button_line", "and led_line are both missing; give one, or set backend = \"none\"");
+  }
+  if (panel.button_line >= 0 && panel.button_line == panel.led_line) {
+    table.fail("led_line", "is the button's line, too; a line is one of the two");
   }
   table.finish();
 }

@@ -160,6 +160,18 @@ Status last_status(GaitDecoder& decoder, std::span<const std::uint8_t> bytes) {
   return status;
 }
 
+TEST_CASE("bytes without a zero are told to be no frames, before the first zero byte, too") {
+  GaitDecoder decoder;
+  int corrupt = 0;
+  for (int i = 0; i < 100000; ++i) corrupt += decoder.push(0x55).status() == Status::corrupt ? 1 : 0;
+  CHECK(corrupt > 100);
+  CHECK(corrupt < 2000);
+  CHECK(decoder.push(0).status() == Status::not_ready);
+  GaitDecoder in_the_middle;
+  for (int i = 0; i < 43; ++i) CHECK(in_the_middle.push(0x55).status() == Status::not_ready);
+  CHECK(in_the_middle.push(0).status() == Status::not_ready);
+}
+
 TEST_CASE("the decoder finds the next frame after noise, a cut frame and one that is too long") {
   const Frame frame = encode(example());
   GaitDecoder decoder;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -184,6 +185,7 @@ TEST_CASE("real-time settings that the system refuses are told, with a remedy") 
   RealtimeConfig config;
   config.lock_memory = false;
   config.cpu = 1023;
+  CHECK(apply_realtime(config).find("touchline: the core cannot be chosen: ") == 0);
   CHECK(apply_realtime(config).find("realtime.cpu") != std::string::npos);
 }
 
@@ -200,6 +202,52 @@ TEST_CASE("check says what the robot would do, or what is wrong") {
   const host::TempFolder temp;
   const auto path = temp.write("robot.toml", "[output]\nudp = [\"nowhere\"]\n");
   CHECK_THROWS_AS(check_robot(path.string(), out), host::HostError);
+  std::ostringstream elsewhere;
+  CHECK(check_robot(temp.write("robot.toml", R"([output]
+udp = ["[fe80::1%nope0]:5"]
+[realtime]
+cpu = 1000
+[panel]
+backend = "gpiod"
+led_line = 1
+state_file = "no/such/folder/yaw"
+)")
+                        .string(),
+                    elsewhere) == 0);
+  CHECK(elsewhere.str().find("has no network interface nope0") != std::string::npos);
+  CHECK(elsewhere.str().find("[realtime] cpu = 1000: this machine has the cores 0 to ") != std::string::npos);
+  CHECK(elsewhere.str().find("[panel] state_file: the goal's yaw cannot be kept in ") != std::string::npos);
+}
+
+TEST_CASE("a goal's yaw that cannot be kept is told at the start, not at the first press") {
+  Output output;
+  const auto path = output.temp.write("robot.toml", replay_file(1, R"([panel]
+backend = "gpiod"
+led_line = 1
+state_file = "no/such/folder/yaw"
+)"));
+  const Daemon daemon(path, output.file, output.log);
+  CHECK(output.temp.read("log").find("no/such/folder: No such file or directory; make the folder") !=
+        std::string::npos);
+}
+
+TEST_CASE("reading again says which changes take a restart; a pipe is not read again") {
+  Output output;
+  const auto path = output.temp.write("robot.toml", replay_file(3));
+  Daemon daemon(path, output.file, output.log);
+  daemon.reload();
+  CHECK(output.temp.read("log").find("restart") == std::string::npos);
+  output.temp.write("robot.toml",
+                    replay_file(4, "[vision]\nspur_px = 8\n[mount]\nheight_m = 0.6\n[localization]\nseed = 9\n"));
+  daemon.reload();
+  CHECK(daemon.file().robot.vision.spur_px == 8);
+  CHECK(output.temp.read("log").find(
+            "robot.toml: [camera], [localization] seed, [mount] changed too, which takes a restart") !=
+        std::string::npos);
+  std::filesystem::remove(path);
+  REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+  daemon.reload();
+  CHECK(output.temp.read("log").find("is a device or a pipe") != std::string::npos);
 }
 
 }  // namespace

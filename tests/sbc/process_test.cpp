@@ -89,6 +89,16 @@ TEST_CASE("with the standard descriptors closed at start, nothing that is printe
   ::close(controller);
 }
 
+TEST_CASE("a path that is no camera is told in our words, once") {
+  const host::TempFolder temp;
+  test::ChildProcess daemon({program, "run", temp.write("robot.toml", "[camera]\ndevice = \"/dev/null\"\n").string()});
+  CHECK(daemon.wait_for_lines(12, patience_ms));  // more than a second: three tries to open it
+  daemon.send(SIGTERM);
+  CHECK(daemon.wait_for_end(promised_end_ms) == 0);
+  CHECK(daemon.log().find("apabilit") == std::string::npos);  // of libv4l2's complaints
+  CHECK(daemon.log().find("fault: camera_missing: no video device at /dev/null") != std::string::npos);
+}
+
 TEST_CASE("a run that ends by itself says when its lines did not get through, with status 2") {
   const std::string replay = std::string(TOUCHLINE_SOURCE_DIR) + "/fixtures/robot-replay.toml";
   const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);

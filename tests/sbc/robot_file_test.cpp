@@ -96,7 +96,7 @@ TEST_CASE("lens, mount and field that are the defaults are named, for no robot h
   const host::TempFolder temp;
   const auto assumed = [&](const std::string& text) {
     std::string all;
-    for (const auto& sentence : read_robot_file(temp.write("robot.toml", text)).assumed) all += sentence + "\n";
+    for (const auto& sentence : read_robot_file(temp.write("robot.toml", text)).notes) all += sentence + "\n";
     return all;
   };
   const std::string empty = assumed("");
@@ -166,6 +166,70 @@ TEST_CASE("impossible values are told with the range") {
   CHECK(contains(error_of("[field]\nlength = 0.0\n"), ":2: [field] length: does not fit the rest of the field"));
   CHECK(contains(error_of("[field]\nwidth = 6.0\nwidth_m = 7.0\n"), ":3: [field] width_m: says the same as width"));
   CHECK(contains(error_of("[lens]\ncx = 6.0\ncx_px = 7.0\n"), ":3: [lens] cx_px: says the same as cx"));
+}
+
+TEST_CASE("settings that nothing can do with are told") {
+  CHECK(contains(error_of("[camera]\nexposure_100us = 80\n"),
+                 ":2: [camera] exposure_100us: is not used; set exposure = \"fixed\", or leave it out"));
+  CHECK(contains(error_of("[camera]\ngain = \"auto\"\ngain_value = 3\n"), ":3: [camera] gain_value: is not used"));
+  CHECK(contains(error_of("[camera]\nwhite_balance_kelvin = 4000\n"), "[camera] white_balance_kelvin: is not used"));
+  CHECK(contains(error_of("[camera]\nexposure = \"fixed\"\nexposure_100us = 0\n"), "exposure_100us: is 0; a fixed"));
+  CHECK(error_of("[camera]\ngain = \"fixed\"\n").empty());  // 0 is a gain
+  CHECK(contains(error_of("[panel]\nbackend = \"gpiod\"\nbutton_line = 4\nled_line = 4\n"),
+                 ":4: [panel] led_line: is the"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [28, 95, 255, 40, 12, 255]\n"), "low bound above the high one"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [28, 95, 40, 255, 200, 12]\n"), "low bound above the high one"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [95, 28, 40, 255, 12, 255]\n"), "low bound above the high one"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [28, 200, 40, 255, 12, 255]\n"), "hue above 179"));
+  CHECK(contains(error_of("[vision]\ngreen_hsv = [28.5, 95, 40, 255, 12, 255]\n"), "no whole one"));
+  CHECK(error_of("[vision]\nyellow_post_hsv = [170, 10, 110, 255, 60, 255]\n").empty());  // over zero
+  CHECK(contains(error_of("[camera]\ndevice = \"\"\n"), ":2: [camera] device: is empty"));
+  CHECK(contains(error_of("[gait]\nbackend = \"serial\"\ndevice = \"\"\n"), ":3: [gait] device: is empty"));
+  CHECK(contains(error_of("[panel]\nbackend = \"gpiod\"\nchip = \"\"\nled_line = 1\n"), ":3: [panel] chip: is empty"));
+  CHECK(contains(error_of("[lens]\nmax_theta_deg = 95\n"), ":2: [lens] max_theta_deg: is 90 or more"));
+  CHECK(contains(error_of("[lens]\nmodel = \"equidistant\"\nk1 = 0.1\n"),
+                 ":3: [lens] k1: is of model = \"kannala_brandt\", but another one is set"));
+  CHECK(contains(error_of("[lens]\nalpha = 1e-6\n"), "[lens] alpha: is of model = \"barrel\""));
+  CHECK(contains(error_of("[lens]\nb = [0.0, 0.9]\n"), "[lens] b: is of model = \"polynomial\""));
+  CHECK(contains(error_of("[lens]\ncx_px = 9000\n"), ":2: [lens] cx_px: is far outside the picture, which is 640"));
+  CHECK(contains(error_of("[lens]\ncy = -900\n"), ":2: [lens] cy: is far outside the picture, which is 480"));
+  CHECK(contains(error_of("[imu]\nprofile = \"custom\"\nreport_id = 3\nyaw = {}\n"),
+                 "[imu.yaw] offset: is 0, where the"));
+  CHECK(error_of("[imu]\nprofile = \"custom\"\nyaw = {}\n").empty());  // no report id
+  CHECK(contains(error_of("[camera]\ndevice = 1979-05-27\n"), "[camera] device: is 1979-05-27, not a text"));
+  CHECK(contains(error_of("[mount]\nheight_m = -inf\n"), "height_m: is -infinity"));
+  CHECK(contains(error_of("[output]\nudp = [\"127.0.0.1:1\",\n\"::1:5000\"]\n"),
+                 ":2: [output] udp: \"::1:5000\" does not"));
+  const std::string replay = "[camera]\nbackend = \"replay\"\nreplay_folder = \"" + std::string(TOUCHLINE_SOURCE_DIR) +
+                             "/fixtures/sim-walk\"\n";
+  CHECK(contains(error_of(replay + "[gait]\nbackend = \"serial\"\n"),
+                 ":5: [gait] backend: is \"serial\", but the camera is"));
+  CHECK(contains(error_of(replay + "[imu]\nbackend = \"hidapi\"\n"),
+                 ":5: [imu] backend: is \"hidapi\", but the camera is"));
+}
+
+TEST_CASE("coefficients that are left out are 0, but for the first") {
+  const host::TempFolder temp;
+  const RobotFile file = read_robot_file(temp.write("robot.toml", "[lens]\nmodel = \"kannala_brandt\"\nk1 = 0.01\n"));
+  CHECK(file.robot.lens.k[0] == 0.01F);
+  CHECK(file.robot.lens.k[1] == 0.0F);
+}
+
+TEST_CASE("a key in a wrong table is told its own, and names are those of the example, each once") {
+  CHECK(contains(error_of("[lens]\nwidth_px = 640\n"), ":2: [lens] width_px: unknown key; it belongs to [camera]"));
+  CHECK(contains(error_of("particles = 100\n"), ":1: particles: unknown key; it belongs to [localization]"));
+  CHECK(contains(error_of("[vision]\nstale_ms = 100\n"), "it belongs to [imu], [gait]"));
+  CHECK(contains(error_of("[field]\nline_width_ = 0.05\n"), "did you mean line_width_m?"));
+  CHECK(contains(error_of("[field]\nlenght = 9\n"), "did you mean length_m?"));
+  const std::string known = error_of("xyzzyxyzzy = 1\n");
+  CHECK(contains(known, "known are camera, field, lens, mount"));
+}
+
+TEST_CASE("poses that go nowhere are noted") {
+  const host::TempFolder temp;
+  const auto notes = read_robot_file(temp.write("robot.toml", "[output]\nstdout = false\n")).notes;
+  CHECK(std::find(notes.begin(), notes.end(), "[output] stdout = false and no udp: the poses go nowhere") !=
+        notes.end());
 }
 
 TEST_CASE("lengths are taken by the names of the robot's file and by those of a data set") {

@@ -128,6 +128,26 @@ TEST_CASE("noise is counted and cannot hold the loop") {
   CHECK(link.read().value().sequence == 9);
 }
 
+TEST_CASE("a silent link says whether bytes arrive; a wrong baud rate is no silence of the line") {
+  ManualClock clock;
+  Controller controller;
+  SerialGaitLink link(controller.config(), clock);
+  REQUIRE(link.open() == Status::ok);
+  clock.advance(one_second);
+  CHECK(link.read().status() == Status::not_ready);
+  CHECK(std::string(link.silence()) == "no bytes arrive");
+  controller.send(std::string(1000, 'U').c_str(), 1000);
+  CHECK(link.read().status() == Status::not_ready);
+  CHECK(std::string(link.silence()).find("bytes arrive, but no frame: compare gait.baud") == 0);
+  CHECK(link.health().corrupt > 0);
+  CHECK(link.health().last_error == Status::corrupt);
+  clock.advance(one_second);
+  controller.send("\0", 1);
+  controller.send(1);
+  CHECK(link.read().ok());
+  CHECK(std::string(link.silence()) == "no bytes arrive");
+}
+
 TEST_CASE("a line that is hung up is disconnected; opened anew it goes on, and no handle is left") {
   const int before = open_descriptors();
   {
