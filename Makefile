@@ -8,7 +8,7 @@ NEED := platform/host/scripts/need.sh
 TOUCHLINE := $(BUILD)/platform/host/touchline
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo run test check golden accept bench profile budget fuzz vmtest format install clean
+.PHONY: help build program demo run test check golden accept bench profile budget fuzz vmtest format install clean
 
 help:  ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "  make %-9s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -25,12 +25,15 @@ build: $(BUILD)/CMakeCache.txt  ## the library, the command line and the tests
 	@bash $(NEED) build test backends
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
-demo: build  ## a simulated robot finds and follows its place; pictures go to demo/
-	@$(TOUCHLINE) demo --output demo
-
-run:  ## the robot daemon on recorded devices: one JSON line per pose
+# The program alone, its build told on standard error.
+program:
 	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt >&2
 	@cmake --build $(BUILD) --parallel $(JOBS) --target touchline >&2
+
+demo: program  ## a simulated robot finds and follows its place; pictures go to demo/
+	@$(TOUCHLINE) demo --output demo
+
+run: program  ## the robot daemon on recorded devices: one JSON line per pose
 	@$(TOUCHLINE) run fixtures/robot-replay.toml
 
 test: build  ## all tests
@@ -44,7 +47,7 @@ golden: build  ## writes the golden outputs anew, for changes of behaviour that 
 	@$(BUILD)/tests/golden/golden_outputs --write tests/golden/expected fixtures
 	@git --no-pager diff --stat -- tests/golden 2>/dev/null || true
 
-accept: build  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
+accept: program  ## make accept DATA=folder: the acceptance figures beside their targets, on the data sets in there
 	@[ -n "$(DATA)" ] || { echo "Which data? Say: make accept DATA=folder" >&2; exit 2; }
 	@$(TOUCHLINE) accept "$(DATA)" --output $(BUILD)/accept.json --figures $(FIGURES) $(if $(REWRITE),--rewrite)
 

@@ -65,7 +65,7 @@ BitWord block_bits(ConstBitView mask, int x, int y) {
   for (int r = 0; r < ridge_block_px; ++r, bytes += row_bytes) {
     std::uint16_t two = 0;
     std::memcpy(&two, bytes, sizeof two);
-    halves[r / 4] |= static_cast<std::uint32_t>(two >> shift & 0xFFU) << (r % 4 * 8);
+    halves[r / 4] |= (static_cast<std::uint32_t>(two) >> shift & 0xFFU) << (r % 4 * 8);
   }
   return BitWord{halves[0]} | BitWord{halves[1]} << 32;
 }
