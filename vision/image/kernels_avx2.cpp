@@ -83,10 +83,10 @@ void store_chroma(__m128i low, __m128i high, const Row& m, std::uint8_t* out) {
   __builtin_memcpy(out, &four, sizeof four);
 }
 
-/// The address may lie beyond the picture: nothing is read.
+/// The address may lie beyond the picture, where no pointer may be made by counting; nothing is read.
 void prefetch(const std::uint8_t* row, std::ptrdiff_t offset) {
   const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(row) + static_cast<std::uintptr_t>(offset);
-  _mm_prefetch(reinterpret_cast<const char*>(address), _MM_HINT_T0);
+  _mm_prefetch(reinterpret_cast<const char*>(address), _MM_HINT_T0);  // NOLINT(performance-no-int-to-ptr)
 }
 
 /// Columns whose windows may be read with sixteen bytes inside the row.
