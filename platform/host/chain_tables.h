@@ -14,6 +14,20 @@
 
 namespace touchline::host {
 
+/// The lens's coefficients that belong to one model alone.
+struct LensKeyOwner {
+  const char* key;
+  LensModel model;
+  const char* name;
+};
+inline constexpr LensKeyOwner lens_key_owners[] = {{"k1", LensModel::kannala_brandt, "kannala_brandt"},
+                                                   {"k2", LensModel::kannala_brandt, "kannala_brandt"},
+                                                   {"k3", LensModel::kannala_brandt, "kannala_brandt"},
+                                                   {"k4", LensModel::kannala_brandt, "kannala_brandt"},
+                                                   {"alpha", LensModel::barrel, "barrel"},
+                                                   {"a", LensModel::polynomial, "polynomial"},
+                                                   {"b", LensModel::polynomial, "polynomial"}};
+
 void expect_lens_keys(KeyReader& keys);
 /// `lens` comes in with the defaults: with `complete` of all keys, else of cx and cy alone. Of the coefficients those
 /// of the model are read; they have defaults when the model is the default one.

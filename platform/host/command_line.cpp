@@ -205,10 +205,6 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv, Commands& co
   return run(app, commands, out, err);
 }
 
-}  // namespace
-
-namespace {
-
 /// "help COMMAND" is "COMMAND --help".
 std::vector<const char*> understood(int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);

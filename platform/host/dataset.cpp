@@ -32,19 +32,7 @@ float as_heading(double value) { return wrap_angle(as_radians(value)); }
 /// Keys of another lens model: they would be left out in silence.
 void tell_unused_lens_keys(const KeyReader& keys, const json& table, LensModel model, KeyNotes& notes,
                            const json* own) {
-  struct ModelKey {
-    const char* key;
-    LensModel model;
-    const char* name;
-  };
-  static constexpr ModelKey model_keys[] = {{"k1", LensModel::kannala_brandt, "kannala_brandt"},
-                                            {"k2", LensModel::kannala_brandt, "kannala_brandt"},
-                                            {"k3", LensModel::kannala_brandt, "kannala_brandt"},
-                                            {"k4", LensModel::kannala_brandt, "kannala_brandt"},
-                                            {"alpha", LensModel::barrel, "barrel"},
-                                            {"a", LensModel::polynomial, "polynomial"},
-                                            {"b", LensModel::polynomial, "polynomial"}};
-  for (const auto& entry : model_keys) {
+  for (const LensKeyOwner& entry : lens_key_owners) {
     if (entry.model == model || !table.contains(entry.key)) continue;
     notes.say(keys, entry.key,
               std::string("belongs to the model ") + entry.name + " and is not used; take it out, or change model",

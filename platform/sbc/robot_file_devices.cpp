@@ -44,19 +44,7 @@ bool is_default(const char* key, const std::vector<double>& values) {
 
 /// Coefficients that stand in the file, but belong to another model than the one that is set.
 void refuse_unused_coefficients(KeyReader& table, LensModel model) {
-  struct Owner {
-    const char* key;
-    LensModel model;
-    const char* name;
-  };
-  constexpr Owner owners[] = {{"k1", LensModel::kannala_brandt, "kannala_brandt"},
-                              {"k2", LensModel::kannala_brandt, "kannala_brandt"},
-                              {"k3", LensModel::kannala_brandt, "kannala_brandt"},
-                              {"k4", LensModel::kannala_brandt, "kannala_brandt"},
-                              {"alpha", LensModel::barrel, "barrel"},
-                              {"a", LensModel::polynomial, "polynomial"},
-                              {"b", LensModel::polynomial, "polynomial"}};
-  for (const Owner& owner : owners) {
+  for (const host::LensKeyOwner& owner : host::lens_key_owners) {
     if (model == owner.model || !table.has(owner.key)) continue;
     const bool list = owner.model == LensModel::polynomial;
     const auto values = list ? table.numbers(owner.key, 1, 8) : std::vector{table.number(owner.key, -1e9, 1e9, 0.0)};

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/paper_lens.h"
 #include "vision/image/thinning.h"
 
 namespace touchline::test {
@@ -42,13 +43,7 @@ bool is_white(const Scene& scene, const GroundProjection& projection, int x, int
 
 Seen::Seen(const Scene& scene, float circle_radius)
     : mask(320, 240), carpet(320, 240), grid(static_cast<std::size_t>(ray_columns(320) * ray_rows(240))) {
-  LensParameters parameters;
-  parameters.focal_px = 232.9F;
-  parameters.cx = 376.0F;
-  parameters.cy = 240.0F;
-  parameters.max_theta = radians(92.5F);
-  Lens lens;
-  REQUIRE(Lens::create(parameters, lens) == Status::ok);
+  const Lens lens = paper_lens();
   projection = GroundProjection(lens, {0.0F, 0.0F, 0.58F, 0.0F, radians(scene.pitch_deg), radians(scene.roll_deg)});
   const RayGridView view{grid, ray_columns(320), ray_rows(240)};
   make_ray_grid(lens, 752, 480, 320, 240, view);
