@@ -2,6 +2,7 @@
 // Candidates for junctions from the line mask. A line whose own direction is well known is followed, and the way square
 // to it is looked at on both sides: where it is white for a short piece of the line, a branch begins. Thinning makes
 // nothing useful of a branch that is hardly longer than wide; the mask still shows it.
+#include "vision/image/bit_ops.h"
 #include "vision/junction_search.h"
 
 namespace touchline {
@@ -19,8 +20,9 @@ constexpr float max_stem_px = 4.0F;
 
 class BranchScan {
  public:
-  explicit BranchScan(const JunctionSearch& search) : search_(search) {}
-  void scan(const LineSegment& s);
+  BranchScan(const JunctionSearch& search, const LineSegment& line)
+      : search_(search), line_(line), along_(math::atan2(line.direction.y, line.direction.x)) {}
+  void scan();
 
  private:
   /// Places along a line where the way square to it is white. The mask fills sharp corners a little; what is white all
@@ -35,115 +37,150 @@ class BranchScan {
       weight += w;
     }
   };
+  /// The way out on one side of the line.
+  struct Side {
+    GroundPoint out;
+    Heading heading;
+  };
   struct Fence {
     WorkPoint from, to;
+    bool seen = false;  // by the lens
   };
-  void scan_side(const LineSegment& s, const GroundPoint& out, float direction);
-  bool make_fence(const GroundPoint& p, const GroundPoint& out, float direction, Fence& fence) const;
-  [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f) const;
-  [[nodiscard]] bool dark_beside(const LineSegment& s, float t, const GroundPoint& out, float direction) const;
-  void add_stem(const LineSegment& s, const Run& run, float step, const GroundPoint& out, float direction);
+  void scan_side(const Side& side);
+  [[nodiscard]] GroundPoint at(float t) const {
+    return {line_.end[0].x + t * line_.direction.x, line_.end[0].y + t * line_.direction.y};
+  }
+  [[nodiscard]] Fence fence_at(const GroundPoint& p, const GroundPixel& pixel, const Side& side) const;
+  [[nodiscard]] bool none_white(const Fence& a, const Fence& b) const;
+  [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f, float least) const;
+  [[nodiscard]] bool dark_beside(float t, const Side& side) const;
+  void add_stem(const Run& run, float step, const Side& side);
 
   const JunctionSearch& search_;
+  const LineSegment& line_;
+  Heading along_;
 };
 
-void BranchScan::scan(const LineSegment& s) {
-  const float heading = math::atan2(s.direction.y, s.direction.x);
+float between(float x, float y, float f) { return x + f * (y - x); }
+WorkPoint between(const WorkPoint& a, const WorkPoint& b, float f) {
+  return {between(a.u, b.u, f), between(a.v, b.v, f)};
+}
+
+void BranchScan::scan() {
   for (const float side : {1.0F, -1.0F}) {
-    const GroundPoint out{-side * s.direction.y, side * s.direction.x};
-    scan_side(s, out, wrap_angle(heading + side * math::half_pi));
+    scan_side({{-side * line_.direction.y, side * line_.direction.x},
+               Heading(wrap_angle(along_.angle + side * math::half_pi))});
   }
 }
 
-void BranchScan::scan_side(const LineSegment& s, const GroundPoint& out, float direction) {
-  const float heading = math::atan2(s.direction.y, s.direction.x);
-  const auto along = [&](float t) {
-    return GroundPoint{s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
-  };
+void BranchScan::scan_side(const Side& side) {
   const auto beyond = [&](const GroundPoint& end) {
     return scan_beyond_widths * search_.parameters.line_width_m +
-           scan_beyond_px * search_.sight.metres_per_px(end, heading);
+           scan_beyond_px * search_.sight.metres_per_px(end, along_);
   };
-  float t = -beyond(s.end[0]);
-  const float last = s.length + beyond(s.end[1]);
+  float t = -beyond(line_.end[0]);
+  const float last = line_.length + beyond(line_.end[1]);
+  GroundPixel pixel(search_.rays, at(t));
+  Fence fence = fence_at(at(t), pixel, side);
   Run run;
   for (int knot = 0; knot < max_scan_knots && t < last; ++knot) {
     // Between knots a few pixels apart the lens is as good as straight.
-    const GroundPoint p = along(t);
-    const float step = search_.sight.metres_per_px(p, heading);
+    const float step = pixel.along(along_);
     const float knot_end = math::min(t + static_cast<float>(scan_knot_px) * step, last);
-    Fence a, b;
-    const bool seen = make_fence(p, out, direction, a) && make_fence(along(knot_end), out, direction, b);
-    for (int i = 0; i < scan_knot_px; ++i) {
+    pixel = GroundPixel(search_.rays, at(knot_end));
+    const Fence next = fence_at(at(knot_end), pixel, side);
+    const bool dark = !fence.seen || !next.seen || none_white(fence, next);
+    for (int i = 0; i < (dark ? 1 : scan_knot_px); ++i) {
       const float f = static_cast<float>(i) / static_cast<float>(scan_knot_px);
-      const float here = t + f * (knot_end - t);
-      const float white = seen ? white_part(a, b, f) : 0.0F;
+      const float white = dark ? 0.0F : white_part(fence, next, f, white_enough);
       if (white >= white_enough) {
-        run.add(here, white);
+        run.add(t + f * (knot_end - t), white);
       } else if (run.weight > 0.0F) {
-        add_stem(s, run, step, out, direction);
+        add_stem(run, step, side);
         run = {};
       }
     }
     t = knot_end;
+    fence = next;
   }
 }
 
-/// The way square to a line, from its edge out, in working pixels.
-bool BranchScan::make_fence(const GroundPoint& p, const GroundPoint& out, float direction, Fence& fence) const {
-  const float from = 0.5F * search_.parameters.line_width_m + search_.sight.metres_per_px(p, direction);
-  const float to = from + search_.sight.min_branch(p, direction);
-  return search_.rays.work_point({p.x + from * out.x, p.y + from * out.y}, 0.0F, fence.from) &&
-         search_.rays.work_point({p.x + to * out.x, p.y + to * out.y}, 0.0F, fence.to);
+/// The way square to the line, from its edge out, in working pixels.
+BranchScan::Fence BranchScan::fence_at(const GroundPoint& p, const GroundPixel& pixel, const Side& side) const {
+  const float px = pixel.along(side.heading);
+  const float from = 0.5F * search_.parameters.line_width_m + px;
+  const float to = from + search_.sight.min_branch(px);
+  Fence fence;
+  fence.seen = search_.rays.work_point({p.x + from * side.out.x, p.y + from * side.out.y}, 0.0F, fence.from) &&
+               search_.rays.work_point({p.x + to * side.out.x, p.y + to * side.out.y}, 0.0F, fence.to);
+  return fence;
 }
 
-/// How much of the way at the part `f` between two fences is white, as far as the picture goes.
-float BranchScan::white_part(const Fence& a, const Fence& b, float f) const {
-  const auto between = [](float x, float y, float g) { return x + g * (y - x); };
-  const float u0 = between(a.from.u, b.from.u, f), v0 = between(a.from.v, b.from.v, f);
-  const float u1 = between(a.to.u, b.to.u, f), v1 = between(a.to.v, b.to.v, f);
-  const float apart = math::max(math::abs(u1 - u0), math::abs(v1 - v0));
+/// Whether no way between two fences can be white enough, told by a look at the box around their outer quarter: most
+/// lines have carpet beside them. A way of n samples has n / 4 or more of them there, and a fifth is too much.
+bool BranchScan::none_white(const Fence& a, const Fence& b) const {
+  constexpr float slack = 0.01F;  // px, for rounding
+  const auto inside = [&](const WorkPoint& p) {
+    return p.u >= slack && p.v >= slack && p.u < static_cast<float>(search_.rays.work_width()) - slack &&
+           p.v < static_cast<float>(search_.rays.work_height()) - slack;
+  };
+  if (!inside(a.from) || !inside(a.to) || !inside(b.from) || !inside(b.to)) return false;
+  const WorkPoint c = between(a.from, a.to, 0.75F);
+  const WorkPoint d = between(b.from, b.to, 0.75F);
+  const float left = math::min(math::min(a.to.u, b.to.u), math::min(c.u, d.u));
+  const float right = math::max(math::max(a.to.u, b.to.u), math::max(c.u, d.u));
+  const float top = math::min(math::min(a.to.v, b.to.v), math::min(c.v, d.v));
+  const float bottom = math::max(math::max(a.to.v, b.to.v), math::max(c.v, d.v));
+  return !any_set(search_.field.lines, static_cast<int>(left - slack), static_cast<int>(top - slack),
+                  static_cast<int>(right + slack), static_cast<int>(bottom + slack));
+}
+
+/// How much of the way at the part `f` between two fences is white, as far as the picture goes; 0 where that is surely
+/// less than `least`.
+float BranchScan::white_part(const Fence& a, const Fence& b, float f, float least) const {
+  const WorkPoint from = between(a.from, b.from, f);
+  const WorkPoint to = between(a.to, b.to, f);
+  const float apart = math::max(math::abs(to.u - from.u), math::abs(to.v - from.v));
   const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
+  const auto all = static_cast<float>(steps + 1);
+  const int most_dark = static_cast<int>((1.001F - least) * all);
   int white = 0, inside = 0;
   for (int i = 0; i <= steps; ++i, ++inside) {
-    const float g = static_cast<float>(i) / static_cast<float>(steps);
-    const float x = between(u0, u1, g);
-    const float y = between(v0, v1, g);
-    if (!(x >= 0.0F && y >= 0.0F)) break;
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const WorkPoint p = between(from, to, static_cast<float>(i) / static_cast<float>(steps));
+    if (!(p.u >= 0.0F && p.v >= 0.0F)) break;
+    const int column = static_cast<int>(p.u), row = static_cast<int>(p.v);
     if (column >= search_.rays.work_width() || row >= search_.rays.work_height()) break;
     white += search_.field.lines.get(column, row) ? 1 : 0;
+    if (i + 1 - white > most_dark) return 0.0F;
   }
-  const auto all = static_cast<float>(steps + 1);
   return static_cast<float>(white) / math::max(static_cast<float>(inside), least_inside * all);
 }
 
 /// Two lines a few pixels apart melt here and there; a branch has carpet on both sides.
-bool BranchScan::dark_beside(const LineSegment& s, float t, const GroundPoint& out, float direction) const {
-  const GroundPoint p{s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
-  Fence f;
-  return !make_fence(p, out, direction, f) || white_part(f, f, 0.0F) <= dark_enough;
+bool BranchScan::dark_beside(float t, const Side& side) const {
+  const Fence f = fence_at(at(t), GroundPixel(search_.rays, at(t)), side);
+  return !f.seen || white_part(f, f, 0.0F, dark_enough) <= dark_enough;
 }
 
-void BranchScan::add_stem(const LineSegment& s, const Run& run, float step, const GroundPoint& out, float direction) {
+void BranchScan::add_stem(const Run& run, float step, const Side& side) {
   const float t = run.sum / run.weight;
   JunctionCandidate c;
-  c.ground = {s.end[0].x + t * s.direction.x, s.end[0].y + t * s.direction.y};
-  c.heading = math::atan2(s.direction.y, s.direction.x);
-  c.other = direction;
-  c.sigma = search_.sight.place_sigma(c.ground, s, stem_widths * search_.parameters.line_width_m);
-  const float widest = max_stem_widths * search_.parameters.line_width_m +
-                       max_stem_px * search_.sight.metres_per_px(c.ground, c.heading);
+  c.ground = at(t);
+  c.heading = along_.angle;
+  c.other = side.heading.angle;
+  const float widest =
+      max_stem_widths * search_.parameters.line_width_m + max_stem_px * search_.sight.metres_per_px(c.ground, along_);
+  if (run.end - run.begin + step > widest || !search_.sight.reaches(line_, line_.direction, c.ground)) return;
   const float aside = 0.5F * search_.parameters.line_width_m + 2.0F * step;
-  if (!dark_beside(s, run.begin - aside, out, direction) || !dark_beside(s, run.end + aside, out, direction)) return;
-  if (run.end - run.begin + step > widest || !search_.sight.reaches(s, s.direction, c.ground)) return;
+  if (!dark_beside(run.begin - aside, side) || !dark_beside(run.end + aside, side)) return;
+  c.sigma = search_.sight.place_sigma(c.ground, line_, stem_widths * search_.parameters.line_width_m);
   search_.work.candidates.push_back(c);
 }
 
 }  // namespace
 
 void scan_for_branches(const JunctionSearch& search, const LineSegment& s) {
-  if (!s.is_short && s.sigma < long_line_sigma && s.points >= min_scan_points) BranchScan(search).scan(s);
+  if (!s.is_short && s.sigma < long_line_sigma && s.points >= min_scan_points) BranchScan(search, s).scan();
 }
 
 }  // namespace touchline

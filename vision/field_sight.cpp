@@ -18,22 +18,23 @@ constexpr int flank_samples = 6;
 
 }  // namespace
 
-float FieldSight::metres_per_px(const GroundPoint& p, float direction) const {
-  const CameraPose& pose = rays_.projection().pose();
-  const float x = p.x - pose.x;
-  const float y = p.y - pose.y;
-  const float range = math::hypot(x, y);
-  const float depth = math::hypot(range, pose.height);
-  const float across = depth * rays_.radians_per_pixel();
-  const float towards = across * depth / pose.height;
-  if (!(range > 1.0e-3F)) return across;
-  const float c = (x * math::cos(direction) + y * math::sin(direction)) / range;
-  return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c));
+GroundPixel::GroundPixel(const WorkRays& rays, const GroundPoint& p) {
+  const CameraPose& pose = rays.projection().pose();
+  x_ = p.x - pose.x;
+  y_ = p.y - pose.y;
+  range_ = math::hypot(x_, y_);
+  const float depth = math::hypot(range_, pose.height);
+  across_ = depth * rays.radians_per_pixel();
+  towards_ = across_ * depth / pose.height;
 }
 
-float FieldSight::min_branch(const GroundPoint& p, float direction) const {
-  return math::max(branch_widths * line_width_, branch_px * metres_per_px(p, direction));
+float GroundPixel::along(const Heading& heading) const {
+  if (!(range_ > 1.0e-3F)) return across_;
+  const float c = (x_ * heading.out.x + y_ * heading.out.y) / range_;
+  return math::sqrt(math::square(towards_ * c) + math::square(across_) * (1.0F - c * c));
 }
+
+float FieldSight::min_branch(float px) const { return math::max(branch_widths * line_width_, branch_px * px); }
 
 Sight FieldSight::look(const GroundPoint& from, const GroundPoint& to) const {
   Sight sight;

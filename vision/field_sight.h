@@ -31,6 +31,30 @@ struct Sight {
   bool seen = true;     // all of it lies in the picture and in the region of interest
 };
 
+/// A direction on the ground with its unit vector, worked out once for many points.
+struct Heading {
+  explicit Heading(float direction) : angle(direction) {
+    const auto [s, c] = math::sin_cos(direction);
+    out = {c, s};
+  }
+  float angle;  // robot's frame, radians
+  GroundPoint out;
+};
+
+/// What a working pixel means on the ground at a point.
+class GroundPixel {
+ public:
+  GroundPixel(const WorkRays& rays, const GroundPoint& p);
+  /// Metres in a direction.
+  [[nodiscard]] float along(const Heading& heading) const;
+  /// Metres in the worst one, away from the camera.
+  [[nodiscard]] float longest() const { return towards_; }
+
+ private:
+  float x_, y_, range_;  // of the point, from the camera's foot
+  float across_, towards_;
+};
+
 class FieldSight {
  public:
   /// All arguments must outlive this.
@@ -38,9 +62,18 @@ class FieldSight {
       : rays_(rays), field_(field), line_width_(line_width_m) {}
 
   /// Metres on the ground of a working pixel, in a direction.
-  [[nodiscard]] float metres_per_px(const GroundPoint& p, float direction) const;
+  [[nodiscard]] float metres_per_px(const GroundPoint& p, const Heading& heading) const {
+    return GroundPixel(rays_, p).along(heading);
+  }
+  [[nodiscard]] float metres_per_px(const GroundPoint& p, float direction) const {
+    return metres_per_px(p, Heading(direction));
+  }
   /// A branch is a line when it goes on for longer than this; marks and spurs do not.
-  [[nodiscard]] float min_branch(const GroundPoint& p, float direction) const;
+  [[nodiscard]] float min_branch(const GroundPoint& p, float direction) const {
+    return min_branch(metres_per_px(p, direction));
+  }
+  /// Likewise, where a working pixel along the branch is `px` metres.
+  [[nodiscard]] float min_branch(float px) const;
   /// What lies between two ground points, a sample a working pixel.
   [[nodiscard]] Sight look(const GroundPoint& from, const GroundPoint& to) const;
   /// Whether a stretch goes up to a point on its line: it covers it, or nearly, or the line is white in between.

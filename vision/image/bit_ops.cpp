@@ -102,6 +102,26 @@ bool equal(ConstBitView a, ConstBitView b) {
   return true;
 }
 
+bool any_set(ConstBitView mask, int first_x, int first_y, int last_x, int last_y) {
+  assert(first_x >= 0 && first_x <= last_x && last_x < mask.width);
+  const int first_word = first_x / bits_per_word;
+  const int last_word = last_x / bits_per_word;
+  const BitWord left = ~BitWord{0} << (first_x % bits_per_word);
+  const BitWord right = ~BitWord{0} >> (bits_per_word - 1 - last_x % bits_per_word);
+  for (int y = first_y; y <= last_y; ++y) {
+    const BitWord* row = mask.row(y);
+    BitWord found = row[last_word] & right;
+    if (first_word == last_word) {
+      found &= left;
+    } else {
+      found |= row[first_word] & left;
+      for (int i = first_word + 1; i < last_word; ++i) found |= row[i];
+    }
+    if (found != 0) return true;
+  }
+  return false;
+}
+
 void set_span(BitView mask, int y, int first, int last, bool value) {
   if (y < 0 || y >= mask.height) return;
   first = std::max(first, 0);

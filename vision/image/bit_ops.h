@@ -41,6 +41,8 @@ void or_with(BitView target, ConstBitView other);
 void and_not_with(BitView target, ConstBitView other);
 [[nodiscard]] int count(ConstBitView mask);
 [[nodiscard]] bool equal(ConstBitView a, ConstBitView b);
+/// Whether a pixel of the rectangle is set, first and last both included; all of it lies inside the image.
+[[nodiscard]] bool any_set(ConstBitView mask, int first_x, int first_y, int last_x, int last_y);
 
 /// Sets or clears the pixels first..last (both included) of a row; the part outside the image is ignored.
 void set_span(BitView mask, int y, int first, int last, bool value);

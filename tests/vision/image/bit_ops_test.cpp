@@ -49,6 +49,20 @@ TEST_CASE("equal sees one differing pixel and a differing size") {
   CHECK_FALSE(equal(a.view(), Bits(65, 3).view()));
 }
 
+TEST_CASE("a rectangle is empty until one of its pixels is set, across word borders too") {
+  constexpr int width = 200, height = 3;
+  for (const auto& [first, last] : {std::pair{0, 0}, std::pair{5, 63}, std::pair{63, 64}, std::pair{10, 199}}) {
+    for (int x = 0; x < width; ++x) {
+      for (int y = 0; y < height; ++y) {
+        Bits one(width, height);
+        one.view().set(x, y, true);
+        REQUIRE(any_set(one.view(), first, 1, last, 1) == (x >= first && x <= last && y == 1));
+        REQUIRE(any_set(one.view(), first, 0, last, height - 1) == (x >= first && x <= last));
+      }
+    }
+  }
+}
+
 TEST_CASE("set pixels are visited once each, in raster order") {
   const Bits image = random_bits(130, 6, 20, 4);
   Bits visited(130, 6);
