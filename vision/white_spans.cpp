@@ -13,19 +13,6 @@
 namespace touchline {
 namespace {
 
-/// First x >= from with bit == value; width when there is none.
-int next_bit(const BitWord* row, int width, int from, bool value) {
-  const BitWord flip = value ? 0 : ~BitWord{0};
-  int i = from / bits_per_word;
-  BitWord word = (row[i] ^ flip) & (~BitWord{0} << (from % bits_per_word));
-  const int words = words_for(width);
-  while (word == 0) {
-    if (++i >= words) return width;
-    word = row[i] ^ flip;
-  }
-  return std::min(i * bits_per_word + std::countr_zero(word), width);
-}
-
 /// A gap in the green along a row or a column: pixels first .. first + length - 1.
 struct Gap {
   const std::uint8_t* luma;  // of the first pixel
@@ -109,53 +96,94 @@ int column_extent(ConstBitView green, int x, int y, int limit) {
 }
 constexpr int slope_reach = 4;  // a slope flatter than 1 : 8 is as good as level
 
+/// other_extent(limit): pixels without green across the scan, which few gaps need to know.
+template <typename OtherExtent>
+bool too_wide_for_slope(int length, const ExtentBySlope& extent, OtherExtent other_extent) {
+  if (extent.never_wider()) return false;
+  if (extent.always_wider()) return true;
+  const int other = other_extent(length * slope_reach);
+  return extent.wider_at(std::min(length, other), other);
+}
+
+void close_row_gap(SpanSearch& search, int y, int first, int end) {
+  const LineWidth& expected = width_at(search.widths, (first + end) / 2, y);
+  const Gap gap{search.image.y.row(y) + first,         1, end - first, first, search.green.width - end,
+                count_row(search.white, y, first, end)};
+  GapVerdict verdict = judge(gap, expected, expected.across_row, search.carpet);
+  if (verdict == GapVerdict::line &&
+      too_wide_for_slope(gap.length, {gap.length, expected.across_row, expected.across_column, expected.slanted},
+                         [&](int limit) { return column_extent(search.green, (first + end) / 2, y, limit); })) {
+    verdict = GapVerdict::too_wide;
+  }
+  if (count_verdict(verdict, search.counts)) set_span(search.lines, y, first, end - 1, true);
+}
+
 void search_row(SpanSearch& search, int y) {
-  const int width = search.green.width;
+  const int words = words_for(search.green.width);
   const BitWord* row = search.green.row(y);
-  int end_of_green = next_bit(row, width, 0, true);
-  while (end_of_green < width) {
-    const int first = next_bit(row, width, end_of_green, false);
-    if (first >= width) return;
-    const int end = next_bit(row, width, first, true);
-    if (end >= width) return;
-    const LineWidth& expected = width_at(search.widths, (first + end) / 2, y);
-    const Gap gap{search.image.y.row(y) + first,         1, end - first, first, width - end,
-                  count_row(search.white, y, first, end)};
-    GapVerdict verdict = judge(gap, expected, expected.across_row, search.carpet);
-    if (verdict == GapVerdict::line) {
-      const int other = column_extent(search.green, (first + end) / 2, y, gap.length * slope_reach);
-      if (wider_than_slope_allows(gap.length, std::min(gap.length, other), other, expected.across_row,
-                                  expected.across_column, expected.slanted)) {
-        verdict = GapVerdict::too_wide;
+  int gap_begin = -1;
+  BitWord before = 0;
+  for (int i = 0; i < words; ++i) {
+    // A set bit where a pixel differs from its left neighbour: green begins and ends in turn.
+    const BitWord changes = row[i] ^ (row[i] << 1 | before);
+    before = row[i] >> (bits_per_word - 1);
+    for_each_bit(changes, [&](int bit) {
+      const int x = i * bits_per_word + bit;
+      if (((row[i] >> bit) & 1U) == 0) {
+        gap_begin = x;
+      } else if (gap_begin >= 0) {
+        close_row_gap(search, y, gap_begin, x);
       }
-    }
-    if (count_verdict(verdict, search.counts)) {
-      set_span(search.lines, y, first, end - 1, true);
-    }
-    end_of_green = end;
+    });
   }
 }
 
-void close_gap(SpanSearch& search, int x, int first, int end) {
+/// The bytes that hold pixel x of the rows from `y` on.
+template <typename Byte, typename Word>
+struct Column {
+  Byte* byte;
+  std::ptrdiff_t stride;
+  unsigned shift;
+
+  Column(const BasicBitView<Word>& mask, int x, int y)
+      : byte(reinterpret_cast<Byte*>(mask.row(y)) + x / 8),
+        stride(mask.stride * std::ptrdiff_t{sizeof(BitWord)}),
+        shift(static_cast<unsigned>(x) % 8U) {}
+};
+
+int count_column(ConstBitView mask, int x, int first, int end) {
+  const Column<const unsigned char, const BitWord> column(mask, x, first);
+  unsigned total = 0;
+  for (int k = 0; k < end - first; ++k) total += (unsigned{column.byte[k * column.stride]} >> column.shift) & 1U;
+  return static_cast<int>(total);
+}
+void set_column(BitView mask, int x, int first, int end) {
+  const Column<unsigned char, BitWord> column(mask, x, first);
+  for (int k = 0; k < end - first; ++k) {
+    unsigned char& byte = column.byte[k * column.stride];
+    byte = static_cast<unsigned char>(byte | (1U << column.shift));
+  }
+}
+
+void close_column_gap(SpanSearch& search, int x, int first, int end) {
   const LineWidth& expected = width_at(search.widths, x, (first + end) / 2);
   if (end - first > with_tolerance(expected.slanted)) {  // before the white pixels are counted one by one
     ++search.counts.too_wide;
     return;
   }
-  int white = 0;
-  for (int y = first; y < end; ++y) white += search.white.get(x, y) ? 1 : 0;
-  const Gap gap{
-      search.image.y.row(first) + x, search.image.y.stride, end - first, first, search.green.height - end, white};
+  const Gap gap{search.image.y.row(first) + x,
+                search.image.y.stride,
+                end - first,
+                first,
+                search.green.height - end,
+                count_column(search.white, x, first, end)};
   GapVerdict verdict = judge(gap, expected, expected.across_column, search.carpet);
-  if (verdict == GapVerdict::line) {
-    const int other = row_extent(search.green, x, (first + end) / 2, gap.length * slope_reach);
-    if (wider_than_slope_allows(gap.length, std::min(gap.length, other), other, expected.across_column,
-                                expected.across_row, expected.slanted)) {
-      verdict = GapVerdict::too_wide;
-    }
+  if (verdict == GapVerdict::line &&
+      too_wide_for_slope(gap.length, {gap.length, expected.across_column, expected.across_row, expected.slanted},
+                         [&](int limit) { return row_extent(search.green, x, (first + end) / 2, limit); })) {
+    verdict = GapVerdict::too_wide;
   }
-  if (!count_verdict(verdict, search.counts)) return;
-  for (int y = first; y < end; ++y) search.lines.set(x, y, true);
+  if (count_verdict(verdict, search.counts)) set_column(search.lines, x, first, end);
 }
 
 /// All columns at once: only where green begins or ends from one row to the next there is something to do.
@@ -167,16 +195,15 @@ void search_columns(SpanSearch& search) {
     const BitWord* above = search.green.row(y - 1);
     const BitWord* here = search.green.row(y);
     for (int i = 0; i < words; ++i) {
-      for (BitWord change = above[i] ^ here[i]; change != 0; change &= change - 1) {
-        const int bit = std::countr_zero(change);
+      for_each_bit(above[i] ^ here[i], [&](int bit) {
         const int x = i * bits_per_word + bit;
         const auto column = static_cast<std::size_t>(x);
         if (((above[i] >> bit) & 1U) != 0) {
           gap_begin[column] = static_cast<std::int16_t>(y);
         } else if (gap_begin[column] >= 0) {
-          close_gap(search, x, gap_begin[column], y);
+          close_column_gap(search, x, gap_begin[column], y);
         }
-      }
+      });
     }
   }
 }
