@@ -10,20 +10,12 @@
 #include <algorithm>
 
 #include "vision/image/bit_image.h"
+#include "vision/image/hsv_range.h"
 #include "vision/image/image_view.h"
 #include "vision/image/kernels.h"
 #include "vision/image/luma_bands.h"
 
 namespace touchline {
-
-/// HSV ranges: hue 0..179 (2 degrees a step, the convention of teams' colour files), saturation and value 0..255. All
-/// bounds are inside. hue_low > hue_high means the range over zero: hue_low..179 and 0..hue_high.
-struct HsvRange {
-  std::uint8_t hue_low = 0, hue_high = 179;
-  std::uint8_t saturation_low = 0, saturation_high = 255;
-  std::uint8_t value_low = 0, value_high = 255;
-  bool operator==(const HsvRange&) const = default;
-};
 
 struct Hsv {
   std::uint8_t hue = 0;         // 0..179, rounded to nearest; 0 for gray

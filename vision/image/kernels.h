@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "vision/image/carpet_rows.h"
 #include "vision/image/colour_matrix.h"
 #include "vision/image/edge_rows.h"
 #include "vision/image/luma_bands.h"
@@ -36,6 +37,7 @@ struct Kernels {
   void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
+  CarpetKernels carpet;
   EdgeKernels edges;  // none: not offered
 };
 

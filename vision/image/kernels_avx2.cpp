@@ -6,6 +6,7 @@
 #if defined(__x86_64__) && defined(__AVX2__)
 #include <immintrin.h>
 
+#include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/luma_bands_loops.h"
 #include "vision/image/ridge_block_loops.h"
@@ -163,7 +164,13 @@ void halve_rows(const HalvedRows& r) {
 }  // namespace
 
 Kernels avx2_kernels() {
-  return {"avx2", halve_rows, ridge::find_ridges, bands::hsv_rows, bands::white_rows, edge_rows::kernels()};
+  return {"avx2",
+          halve_rows,
+          ridge::find_ridges,
+          bands::hsv_rows,
+          bands::white_rows,
+          carpet::kernels(),
+          edge_rows::kernels()};
 }
 
 }  // namespace touchline

@@ -13,6 +13,7 @@
 #include "platform/core/rng.h"
 #include "platform/processor/fastest_kernels.h"
 #include "vision/image/frame_fifo.h"
+#include "vision/image/hsv.h"
 #include "vision/image/subsample.h"
 
 namespace touchline {
@@ -161,6 +162,92 @@ TEST_CASE("white is that of the definition, with every table of kernels") {
     check_white(portable_kernels(), width);
     check_white(word_kernels(), width);
     check_white(fastest_kernels(), width);
+  }
+}
+
+/// What the carpet's colour is made of, by its definition.
+struct CarpetOfRow {
+  CarpetColours colours;
+  ChromaSums sums;
+  CarpetRatios ratios;
+};
+CarpetOfRow carpet_by_definition(const CarpetRow& row, const HsvRange& gate, const ChromaAxis& axis) {
+  const auto is_set = [](const std::uint64_t* bits, int x) { return ((bits[x / 64] >> (x % 64)) & 1U) != 0; };
+  CarpetOfRow out;
+  for (int x = 2; x < row.width; x += 4) {
+    if (!is_set(row.mask, x)) continue;
+    const int luma = row.y[x];
+    const Hsv hsv = hsv_from_ycbcr(row.y[x], row.cb[x / 2], row.cr[x / 2]);
+    if (in_range(hsv, gate)) {
+      ++out.colours.samples;
+      ++out.colours.hues[hsv.hue];
+      ++out.colours.saturations[hsv.saturation];
+    }
+    const int cb = row.cb[x / 2] - 128;
+    const int cr = row.cr[x / 2] - 128;
+    ++out.sums.samples;
+    out.sums.cb += cb;
+    out.sums.cr += cr;
+    const int divisor = std::max(luma, 1);
+    ++out.ratios.greenness[std::clamp((cb * axis.cb + cr * axis.cr) / divisor, 0, 255)];
+    ++out.ratios.chroma[std::min((std::abs(cb) + std::abs(cr)) * 256 / divisor, 255)];
+    ++out.ratios.lumas[luma];
+    if (x + 1 < row.width && is_set(row.around, x - 1) && is_set(row.around, x + 1)) {
+      out.ratios.roughness += std::min(std::abs(2 * luma - row.y[x - 1] - row.y[x + 1]), 32);
+      ++out.ratios.rough_samples;
+    }
+  }
+  return out;
+}
+
+bool same(const Histogram& a, const Histogram& b) { return std::equal(a, a + 256, b); }
+
+void check_carpet(const CarpetKernels& kernels, int width, const HsvRange& gate, std::uint64_t seed) {
+  const auto samples = static_cast<std::size_t>(width);
+  const auto luma = noise(samples, seed);
+  const auto chroma = noise(samples + 1, seed + 1);
+  Rng rng(seed + 2);
+  std::vector<std::uint64_t> mask((samples + 63) / 64), around(mask.size());
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    around[i] = rng.next_u32() | std::uint64_t{rng.next_u32()} << 32U | 0xFFF00U;
+    mask[i] = around[i] & (rng.next_u32() | std::uint64_t{rng.next_u32()} << 32U);
+  }
+  const std::uint64_t inside = width % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (width % 64)) - 1;
+  mask.back() &= inside;
+  around.back() &= inside;
+  const std::vector<std::uint8_t> cb(chroma.begin(), chroma.begin() + (width + 1) / 2);
+  const std::vector<std::uint8_t> cr(chroma.end() - (width + 1) / 2, chroma.end());
+  const CarpetRow row{luma.data(), cb.data(), cr.data(), mask.data(), around.data(), width};
+  const ChromaAxis axis{-180, -256};
+  const CarpetOfRow expected = carpet_by_definition(row, gate, axis);
+  CarpetOfRow found;
+  kernels.count_colours(row, gate, found.colours);
+  kernels.sum_chroma(row, found.sums);
+  kernels.count_ratios(row, axis, found.ratios);
+  REQUIRE(found.colours.samples == expected.colours.samples);
+  REQUIRE(same(found.colours.hues, expected.colours.hues));
+  REQUIRE(same(found.colours.saturations, expected.colours.saturations));
+  REQUIRE(found.sums.samples == expected.sums.samples);
+  REQUIRE(found.sums.cb == expected.sums.cb);
+  REQUIRE(found.sums.cr == expected.sums.cr);
+  REQUIRE(same(found.ratios.greenness, expected.ratios.greenness));
+  REQUIRE(same(found.ratios.chroma, expected.ratios.chroma));
+  REQUIRE(same(found.ratios.lumas, expected.ratios.lumas));
+  REQUIRE(found.ratios.roughness == expected.ratios.roughness);
+  REQUIRE(found.ratios.rough_samples == expected.ratios.rough_samples);
+}
+
+TEST_CASE("the carpet's colours are counted as their definition says, with every table of kernels") {
+  for (const int width : {3, 63, 64, 66, 95, 320, 1280}) {
+    for (const HsvRange& gate : {HsvRange{}, HsvRange{28, 95, 40, 255, 12, 255}, HsvRange{170, 20, 3, 200, 0, 180}}) {
+      for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        CAPTURE(width);
+        CAPTURE(seed);
+        check_carpet(portable_kernels().carpet, width, gate, seed);
+        check_carpet(word_kernels().carpet, width, gate, seed);
+        check_carpet(fastest_kernels().carpet, width, gate, seed);
+      }
+    }
   }
 }
 
