@@ -128,13 +128,34 @@ void DistanceField::build(const Field& field) {
     for (int x = 0; x < columns_; ++x) {
       const FieldPoint p{static_cast<float>(x) * cell, static_cast<float>(y) * cell};
       const auto node = static_cast<std::size_t>(y * columns_ + x);
-      layers_[0][node] = quantised(exact_distance(field, p, LineAxis::x));
-      layers_[1][node] = quantised(exact_distance(field, p, LineAxis::y));
+      nodes_[node] = quantised(exact_distance(field, p, LineAxis::x));
+      nodes_[node + layer] = quantised(exact_distance(field, p, LineAxis::y));
     }
   }
 }
 
-float DistanceField::distance(const FieldPoint& p, LineAxis axis) const { return distance_inline(p, axis); }
+DistanceCells DistanceField::cells() const {
+  return {nodes_.data(), columns_, layer, last_column_, last_row_, 1.0F / cell};
+}
+
+float DistanceField::distance(const FieldPoint& p, LineAxis axis) const {
+  constexpr float per_metre = 1.0F / cell;
+  const float u = math::abs(p.x) * per_metre;
+  const float v = math::abs(p.y) * per_metre;
+  if (!(u < last_column_ && v < last_row_)) return cap;
+  const int column = static_cast<int>(u);
+  const int row = static_cast<int>(v);
+  const float right = u - static_cast<float>(column);
+  const float down = v - static_cast<float>(row);
+  const std::uint8_t* node = nodes_.data() + (axis == LineAxis::x ? 0 : layer) + (row * columns_ + column);
+  const float a = static_cast<float>(node[0]);
+  const float b = static_cast<float>(node[1]);
+  const float c = static_cast<float>(node[columns_]);
+  const float d = static_cast<float>(node[columns_ + 1]);
+  const float top = a + right * (b - a);
+  const float bottom = c + right * (d - c);
+  return unit * (top + down * (bottom - top));
+}
 
 LineMatch nearest_line(const Field& field, const FieldPoint& p, float dx, float dy) {
   const bool along_x = axis_of(dx, dy) == LineAxis::x;

@@ -19,6 +19,15 @@ enum class LineAxis : std::uint8_t { x, y };
 /// The axis that a direction vector (of any length) is nearer to.
 inline LineAxis axis_of(float dx, float dy) { return math::abs(dx) >= math::abs(dy) ? LineAxis::x : LineAxis::y; }
 
+/// The nodes of a DistanceField, row by row, in its own memory.
+struct DistanceCells {
+  const std::uint8_t* nodes = nullptr;  // lines along x, then lines along y; four bytes may be read from each
+  int columns = 0;
+  int layer = 0;                              // from a node for lines along x to the one for lines along y
+  float last_column = 0.0F, last_row = 0.0F;  // there the distance has reached its cap
+  float nodes_a_metre = 0.0F;
+};
+
 /// Distances in a quarter of the field (the rest is its mirror image in x and y), a layer for lines along x and one for
 /// lines along y. The circle counts in a layer where its tangent is within 67.5 degrees of that axis, so that a
 /// direction measured on it finds it in the layer that axis_of() names, also when it is off by 22.5 degrees.
@@ -34,8 +43,9 @@ class DistanceField {
   /// around. Error: half a unit where the distance is linear, and up to half a cell (25 mm) too much (too little) where
   /// its slope jumps inside a cell: on a line that lies between nodes (half-way between two lines).
   [[nodiscard]] float distance(const FieldPoint& p, LineAxis axis) const;
-  /// The same in the header, for loops over particles and samples.
-  [[nodiscard]] float distance_inline(const FieldPoint& p, LineAxis axis) const;
+  /// The nodes, for loops over many poses and samples, which take the nearest node: its error, half a cell on either
+  /// axis at the most, is small beside what keeps particles apart.
+  [[nodiscard]] DistanceCells cells() const;
   /// Distance to the nearest line of either.
   [[nodiscard]] float distance(const FieldPoint& p) const {
     return math::min(distance(p, LineAxis::x), distance(p, LineAxis::y));
@@ -47,34 +57,15 @@ class DistanceField {
   static constexpr int max_rows = 112;
   static_assert((static_cast<float>(max_columns) - 1.0F) * cell >= 0.5F * max_field_length + cap);
   static_assert((static_cast<float>(max_rows) - 1.0F) * cell >= 0.5F * max_field_width + cap);
-  using Layer = std::array<std::uint8_t, static_cast<std::size_t>(max_columns) * static_cast<std::size_t>(max_rows)>;
+  static constexpr int layer = max_columns * max_rows;
 
   int columns_ = 0;  // in use; 0 before build(): then every distance is `cap`
   int rows_ = 0;
   float last_column_ = -1.0F;
   float last_row_ = -1.0F;
-  std::array<Layer, 2> layers_{};
+  // For lines along x, for lines along y, and what a kernel may read behind them.
+  std::array<std::uint8_t, 2 * static_cast<std::size_t>(layer) + 4> nodes_{};
 };
-
-inline float DistanceField::distance_inline(const FieldPoint& p, LineAxis axis) const {
-  constexpr float per_metre = 1.0F / cell;
-  const float u = math::abs(p.x) * per_metre;
-  const float v = math::abs(p.y) * per_metre;
-  if (!(u < last_column_ && v < last_row_)) return cap;
-  const int column = static_cast<int>(u);
-  const int row = static_cast<int>(v);
-  const float right = u - static_cast<float>(column);
-  const float down = v - static_cast<float>(row);
-  const std::uint8_t* layer = axis == LineAxis::x ? layers_[0].data() : layers_[1].data();
-  const std::uint8_t* node = layer + (row * columns_ + column);
-  const float a = static_cast<float>(node[0]);
-  const float b = static_cast<float>(node[1]);
-  const float c = static_cast<float>(node[columns_]);
-  const float d = static_cast<float>(node[columns_ + 1]);
-  const float top = a + right * (b - a);
-  const float bottom = c + right * (d - c);
-  return unit * (top + down * (bottom - top));
-}
 
 /// The line nearest to a point: the point is `nearest + distance * normal`.
 struct LineMatch {

@@ -1,73 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/full_likelihood.h"
 
+#include <cassert>
+
 #include "loc/robust.h"
 #include "platform/core/elementary.h"
 
 namespace touchline {
 namespace {
 
-/// Cost of one observed point landmark against the best of the field's own.
-struct Match {
-  float z2 = 1e6F;
-};
+constexpr float direction_sigma = 0.2F;  // radians: a branch of half a metre measured on a line 10 cm wide
 
-float normalised_square(const GroundPoint& seen, const Sym2& covariance, const GroundPoint& expected, float extra) {
+constexpr LandmarkTerms::Place nowhere = {1e4F, 1e4F, 0.0F};
+
+using Sight = LandmarkTerms::Sight;
+
+/// A sight without a direction. The covariance is widened by `extra` and inverted.
+Sight sight_of(const GroundPoint& seen, const Sym2& covariance, float extra, float confidence) {
+  Sight s;
+  s.x = seen.x;
+  s.y = seen.y;
   const float xx = covariance.xx + extra * extra;
   const float yy = covariance.yy + extra * extra;
   const float xy = covariance.xy;
-  const float det = math::max(xx * yy - xy * xy, 1e-9F);
-  const float dx = seen.x - expected.x;
-  const float dy = seen.y - expected.y;
-  return (yy * dx * dx - 2.0F * xy * dx * dy + xx * dy * dy) / det;
+  const float inverse_det = 1.0F / math::max(xx * yy - xy * xy, 1e-9F);
+  s.xx = yy * inverse_det;
+  s.xy = -2.0F * xy * inverse_det;
+  s.yy = xx * inverse_det;
+  s.period = math::two_pi;
+  s.confidence = confidence;
+  return s;
 }
 
-constexpr float direction_sigma = 0.2F;  // radians: a branch of half a metre measured on a line 10 cm wide
-
-/// to_ground() for many points and one pose: its sine and cosine are taken once.
-struct Ground {
-  explicit Ground(const Pose2& from) : pose(from), turn(math::sin_cos(from.theta)) {}
-  [[nodiscard]] GroundPoint point(const FieldPoint& p) const {
-    const float dx = p.x - pose.x;
-    const float dy = p.y - pose.y;
-    return {turn.cos * dx + turn.sin * dy, turn.cos * dy - turn.sin * dx};
-  }
-  Pose2 pose;
-  math::SinCos turn;
-};
-
-float junction_cost(const Field& field, const Junction& j, const Ground& ground, float extra) {
-  Match best;
-  for (const FieldLandmark& l : field.landmarks()) {
-    if (l.type != j.type) continue;
-    float z2 = normalised_square(j.ground, j.covariance, ground.point(l.at), extra);
-    if (z2 >= best.z2) continue;
-    float turn = angle_difference(j.direction[0] + ground.pose.theta, l.direction[0]);
-    if (j.type == JunctionType::x) turn = angle_difference(4.0F * turn, 0.0F) * 0.25F;  // four-fold
-    z2 += math::square(turn / direction_sigma);
-    if (z2 < best.z2) best.z2 = z2;
-  }
-  return j.confidence * robust_cost(best.z2);
+void give_direction(Sight& s, float direction, float period) {
+  s.direction = direction;
+  s.period = period;
+  s.turn_weight = 1.0F / direction_sigma;
 }
 
-float circle_cost(const CircleObservation& circle, const Ground& ground, float extra) {
-  float z2 = normalised_square(circle.centre, circle.covariance, ground.point({0.0F, 0.0F}), extra);
-  if (circle.has_half_line) {
-    const float turn = angle_difference(2.0F * (circle.half_line_direction + ground.pose.theta), math::pi) * 0.5F;
-    z2 += math::square(turn / direction_sigma);
-  }
-  return circle.confidence * robust_cost(z2);
+void add_sight(LandmarkTerms& t, Sight s, int first) {
+  s.first = s.begin = first;
+  s.last = t.place_count;
+  t.sights[t.sight_count++] = s;
 }
 
-float post_cost(const Field& field, const PostObservation& post, const Ground& ground, float extra) {
-  float z2 = 1e6F;
-  for (const FieldPoint& p : field.posts()) {
-    z2 = math::min(z2, normalised_square(post.ground, post.covariance, ground.point(p), extra));
+void prepare_junctions(const Field& field, const Features& f, float extra, LandmarkTerms& out) {
+  for (const JunctionType type : {JunctionType::l, JunctionType::t, JunctionType::x}) {
+    const int first = out.place_count;
+    for (const FieldLandmark& l : field.landmarks()) {
+      if (l.type == type) out.places[out.place_count++] = {l.at.x, l.at.y, l.direction[0]};
+    }
+    if (out.place_count == first) out.places[out.place_count++] = nowhere;  // the field has none of these
+    for (const Junction& j : f.junctions) {
+      if (j.type != type) continue;
+      Sight s = sight_of(j.ground, j.covariance, extra, j.confidence);
+      give_direction(s, j.direction[0], type == JunctionType::x ? math::half_pi : math::two_pi);
+      add_sight(out, s, first);
+    }
   }
-  return post.confidence * robust_cost(z2);
 }
 
 }  // namespace
+
+void PoseBlock::push_back(const Pose2& pose) {
+  assert(count < pose_lanes);
+  const auto [s, c] = math::sin_cos(pose.theta);
+  x[count] = pose.x;
+  y[count] = pose.y;
+  theta[count] = pose.theta;
+  sin[count] = s;
+  cos[count] = c;
+  ++count;
+}
 
 float yaw_z2(const YawEvidence& yaw, float theta) {
   return yaw.known ? math::square(angle_difference(theta, yaw.theta) / yaw.sigma) : 0.0F;
@@ -78,36 +82,63 @@ float yaw_log_likelihood(const YawEvidence& yaw, float theta) {
   return -math::min(0.5F * z2, 12.5F + 0.05F * z2);
 }
 
-float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose,
-                          float extra_sigma) {
-  const auto [s, c] = math::sin_cos(pose.theta);
-  float sum = 0.0F;
-  for (const LineSample& p : observation.filter_lines) {
-    const float x = pose.x + c * p.ground.x - s * p.ground.y;
-    const float y = pose.y + s * p.ground.x + c * p.ground.y;
-    const float dx = c * p.dir_x - s * p.dir_y;
-    const float dy = s * p.dir_x + c * p.dir_y;
-    const float d = map.distance_inline({x, y}, axis_of(dx, dy));
-    const float variance = p.variance + extra_sigma * extra_sigma;
-    sum -= p.weight * robust_cost(d * d / variance);
+void prepare_lines(const DistanceField& map, const Observation& observation, float extra_sigma, std::size_t step,
+                   LineTerms& out) {
+  out.map = map.cells();
+  const float per_metre = out.map.nodes_a_metre;
+  constexpr float square_steps = 1.0F / (DistanceField::unit * DistanceField::unit);  // a square metre
+  int n = 0;
+  for (std::size_t i = 0; i < observation.filter_lines.size(); i += step) {
+    const LineSample p = observation.filter_lines[i];
+    out.x[n] = p.ground.x * per_metre;
+    out.y[n] = p.ground.y * per_metre;
+    out.double_cos[n] = p.dir_x * p.dir_x - p.dir_y * p.dir_y;
+    out.double_sin[n] = 2.0F * p.dir_x * p.dir_y;
+    out.saturation[n] = 2.0F * robust_limit * square_steps * (p.variance + extra_sigma * extra_sigma);
+    out.limit[n] = robust_limit * p.weight;
+    ++n;
   }
-  return sum;
+  out.count = n;
 }
 
-float landmark_log_likelihood(const Field& field, const Observation& observation, Landmarks landmarks,
-                              const Pose2& pose, float extra_sigma) {
-  float sum = 0.0F;
-  if (observation.features == nullptr) return sum;
+void prepare_landmarks(const Field& field, const Observation& observation, Landmarks landmarks, float extra_sigma,
+                       LandmarkTerms& out) {
+  out.place_count = 0;
+  out.sight_count = 0;
+  if (observation.features == nullptr) return;
   const Features& f = *observation.features;
-  const Ground ground(pose);
   if (landmarks != Landmarks::goalposts) {
-    for (const Junction& j : f.junctions) sum -= junction_cost(field, j, ground, extra_sigma);
-    if (f.has_circle) sum -= circle_cost(f.circle, ground, extra_sigma);
+    prepare_junctions(field, f, extra_sigma, out);
+    if (f.has_circle) {
+      out.places[out.place_count++] = {0.0F, 0.0F, math::half_pi};  // the half line runs along y
+      Sight s = sight_of(f.circle.centre, f.circle.covariance, extra_sigma, f.circle.confidence);
+      if (f.circle.has_half_line) give_direction(s, f.circle.half_line_direction, math::pi);
+      add_sight(out, s, out.place_count - 1);
+    }
   }
   if (landmarks != Landmarks::lines) {
-    for (const PostObservation& p : f.posts) sum -= post_cost(field, p, ground, extra_sigma);
+    const int first = out.place_count;
+    for (const FieldPoint& p : field.posts()) out.places[out.place_count++] = {p.x, p.y, 0.0F};
+    for (const PostObservation& p : f.posts) {
+      add_sight(out, sight_of(p.ground, p.covariance, extra_sigma, p.confidence), first);
+    }
   }
-  return sum;
+}
+
+float line_log_likelihood(const LineTerms& terms, const Pose2& pose, const LocKernels& kernels) {
+  PoseBlock block;
+  block.push_back(pose);
+  float costs[pose_lanes];
+  kernels.line_costs(terms, block, costs);
+  return -costs[0];
+}
+
+float landmark_log_likelihood(LandmarkTerms& terms, const Pose2& pose, const LocKernels& kernels) {
+  PoseBlock block;
+  block.push_back(pose);
+  float costs[pose_lanes];
+  kernels.landmark_costs(terms, block, costs);
+  return -costs[0];
 }
 
 }  // namespace touchline

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well one pose explains one frame: line points against the distance map, oriented junctions, centre circle, posts
-// and yaw, each with the robust cost of robust.h. The full model's observation likelihood.
+// How well a pose explains one frame: line points against the distance map, oriented junctions, centre circle, posts
+// and yaw, each with the robust cost of robust.h. The full model's observation likelihood. What does not depend on the
+// pose is prepared once a frame; the kernels do the rest.
 #pragma once
 
-#include "loc/distance_field.h"
-#include "loc/field.h"
+#include "loc/kernels.h"
 #include "loc/localizer_config.h"
-#include "loc/observation.h"
 
 namespace touchline {
 
@@ -20,14 +19,17 @@ struct YawEvidence {
 /// Squared normalised difference of theta to the yaw; 0 when the yaw is not known.
 float yaw_z2(const YawEvidence& yaw, float theta);
 
-/// Nats, <= 0, weighted sum over observation.filter_lines. `extra_sigma` (metres) widens every sample: the distance
-/// from a particle to the true pose that should still count.
-float line_log_likelihood(const DistanceField& map, const Observation& observation, const Pose2& pose,
-                          float extra_sigma);
+/// Every `step`-th of observation.filter_lines. `extra_sigma` (metres) widens every sample: the distance from a
+/// particle to the true pose that should still count.
+void prepare_lines(const DistanceField& map, const Observation& observation, float extra_sigma, std::size_t step,
+                   LineTerms& out);
+/// Junctions, circle and posts, as `landmarks` allows.
+void prepare_landmarks(const Field& field, const Observation& observation, Landmarks landmarks, float extra_sigma,
+                       LandmarkTerms& out);
 
-/// Nats, <= 0, of junctions, circle and posts, as `landmarks` allows.
-float landmark_log_likelihood(const Field& field, const Observation& observation, Landmarks landmarks,
-                              const Pose2& pose, float extra_sigma);
+/// Nats, <= 0, of one pose.
+float line_log_likelihood(const LineTerms& terms, const Pose2& pose, const LocKernels& kernels);
+float landmark_log_likelihood(LandmarkTerms& terms, const Pose2& pose, const LocKernels& kernels);
 
 /// Yaw: a wrapped Gaussian that does not saturate until 5 sigma, so that lines cannot turn the robot about.
 float yaw_log_likelihood(const YawEvidence& yaw, float theta);

@@ -55,6 +55,32 @@ Factor square_root(const PoseCovariance& c) {
   return f;
 }
 
+/// Log likelihoods of particles' poses, eight at a time.
+class PoseJudge {
+ public:
+  PoseJudge(const Field& field, const DistanceField& map, const Observation& observation, const LocalizerConfig& config,
+            const YawEvidence& yaw)
+      : yaw_(yaw), kernels_(config.kernels) {
+    prepare_lines(map, observation, particle_sigma, 1, lines_);
+    prepare_landmarks(field, observation, config.landmarks, particle_sigma, landmarks_);
+  }
+  /// `line_costs`: nats >= 0, the line points' part of it. Both have room for eight.
+  void judge(const PoseBlock& poses, float* line_costs, float* log_likelihoods) {
+    float landmark_costs[pose_lanes];
+    kernels_.line_costs(lines_, poses, line_costs);
+    kernels_.landmark_costs(landmarks_, poses, landmark_costs);
+    for (int i = 0; i < poses.count; ++i) {
+      log_likelihoods[i] = yaw_log_likelihood(yaw_, poses.theta[i]) - temper * (line_costs[i] + landmark_costs[i]);
+    }
+  }
+
+ private:
+  const YawEvidence& yaw_;
+  const LocKernels& kernels_;
+  LineTerms lines_;
+  LandmarkTerms landmarks_;
+};
+
 /// Of the position: the larger eigenvalue of its 2x2 covariance.
 float largest_variance(const PoseCovariance& c) {
   const float mean = 0.5F * (c.xx + c.yy);
@@ -86,29 +112,25 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
 
 /// Log likelihood of every particle; returns the mean over the particles of the likelihood per measurement, in (0, 1].
 float Localizer::weigh_particles(const YawEvidence& yaw) {
+  PoseJudge judge(field_, map_, observation_, config_, yaw);
   const ParticleView p = particles();
   float sum = 0.0F;
   const float per_measurement = 1.0F / math::max(observation_.line_weight, 1.0F);
-  for (int i = 0; i < p.count; ++i) {
-    float lines = 0.0F;
-    p.log_weight[i] = particle_log_likelihood(p.pose(i), yaw, lines);
-    sum += math::exp(lines * per_measurement);
+  for (int first = 0; first < p.count; first += pose_lanes) {
+    PoseBlock block;
+    for (int i = first; i < p.count && block.count < pose_lanes; ++i) block.push_back(p.pose(i));
+    float line_costs[pose_lanes];
+    judge.judge(block, line_costs, p.log_weight + first);
+    for (int i = 0; i < block.count; ++i) sum += math::exp(-line_costs[i] * per_measurement);
   }
   return sum / static_cast<float>(p.count);
-}
-
-/// Log likelihood of a particle's pose; `lines` is set to the line points' part of it.
-float Localizer::particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw, float& lines) const {
-  lines = line_log_likelihood(map_, observation_, pose, particle_sigma);
-  const float landmarks = landmark_log_likelihood(field_, observation_, config_.landmarks, pose, particle_sigma);
-  return temper * (lines + landmarks) + yaw_log_likelihood(yaw, pose.theta);
 }
 
 /// Puts the frame's own candidates in place of every n-th particle, `share` of all: resampling keeps the order, so that
 /// a run of neighbours is one mode, and would lose it to chance. Candidates that put lines where there are none have
 /// been moved to the end: with little in view many places explain what is seen, and few what is not.
 void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
-  find_candidates(field_, map_, observation_, config_.landmarks, yaw, candidates_);
+  find_candidates(field_, map_, observation_, config_, yaw, candidates_);
   if (candidates_.empty()) return;
   for (PoseCandidate& candidate : candidates_) {
     Refinement as_given;
@@ -120,6 +142,7 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
   sort_best_first(candidates_);
   const ParticleView p = particles();
   const int count = std::max(1, part_of(p.count, math::min(share, 0.5F)));
+  PoseJudge judge(field_, map_, observation_, config_, yaw);
   for (int k = 0; k < count; ++k) {
     const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % std::min(candidates_.size(), max_clusters)];
     const int i = k * p.count / count;
@@ -130,8 +153,11 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
       pose.theta = wrap_angle(pose.theta + candidate_spread_rad * rng_.gaussian());
     }
     p.set_pose(i, pose);
-    float lines = 0.0F;
-    p.log_weight[i] = particle_log_likelihood(pose, yaw, lines) - temper * c.missing;
+    PoseBlock block;
+    block.push_back(pose);
+    float line_costs[pose_lanes], log_likelihoods[pose_lanes];
+    judge.judge(block, line_costs, log_likelihoods);
+    p.log_weight[i] = log_likelihoods[0] - temper * c.missing;
   }
 }
 
@@ -149,33 +175,38 @@ RefinementPrior Localizer::refinement_prior(const YawEvidence& yaw, bool tracked
 
 void Localizer::refine_clusters(const VisionResult& vision, const YawEvidence& yaw) {
   modes_.clear();
+  LandmarkTerms landmarks;
+  prepare_landmarks(field_, observation_, config_.landmarks, refined_sigma, landmarks);
   for (const Cluster& cluster : clusters_) {
     Mode mode;
     mode.negligible = cluster.mass < negligible_mass;
     mode.refined.pose = cluster.mean;
     mode.refined.covariance = cluster.covariance;
-    if (!mode.negligible) look_closely(cluster, vision, yaw, mode);
+    if (!mode.negligible) look_closely(cluster, vision, yaw, landmarks, mode);
     modes_.push_back(mode);
   }
 }
 
-void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode) {
+void Localizer::look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw,
+                             LandmarkTerms& landmarks, Mode& mode) {
   mode.tracked = last_.valid && near(cluster.mean, last_.pose, cluster_radius_m, cluster_angle);
   if (observation_.line_weight >= 1.0F) {  // else there is nothing to refine on, and the particles know best
     const Refinement refined =
-        refine_pose(field_, observation_.filter_lines.span(), observation_.camera,
-                    mode.tracked ? last_.pose : cluster.mean, refinement_prior(yaw, mode.tracked),
+        refine_pose(quarter_lines(field_), observation_.filter_lines.view(), observation_.camera,
+                    mode.tracked ? last_.pose : cluster.mean, refinement_prior(yaw, mode.tracked), config_.kernels,
                     mode.tracked ? tracking_gate : search_gate, mode.tracked ? tracking_steps : search_steps);
     if (refined.converged) {
       mode.refined = refined;
     } else {
-      mode.refined.line_log_likelihood = line_log_likelihood(map_, observation_, cluster.mean, 0.0F);
+      LineTerms lines;
+      prepare_lines(map_, observation_, 0.0F, 1, lines);
+      mode.refined.line_log_likelihood = line_log_likelihood(lines, cluster.mean, config_.kernels);
     }
   }
   const Refinement& r = mode.refined;
   const Visibility look = check_visibility(field_, vision, r, range_for_visibility);
   mode.evidence = temper * (r.line_log_likelihood - missing_nats_per_metre * look.missing +
-                            landmark_log_likelihood(field_, observation_, config_.landmarks, r.pose, refined_sigma)) +
+                            landmark_log_likelihood(landmarks, r.pose, config_.kernels)) +
                   yaw_log_likelihood(yaw, r.pose.theta) -
                   0.5F * (math::square(r.pitch_error) + math::square(r.roll_error)) / math::square(config_.tilt_sigma);
 }
@@ -211,8 +242,9 @@ Localizer::Mode* Localizer::best_mode() {
 void Localizer::polish_best(const YawEvidence& yaw) {
   Mode* best = best_mode();
   if (best == nullptr || !best->refined.converged) return;
-  const Refinement refined = refine_pose(field_, observation_.lines.span(), observation_.camera, best->refined.pose,
-                                         refinement_prior(yaw, best->tracked), polish_gate, polish_steps);
+  const Refinement refined =
+      refine_pose(quarter_lines(field_), observation_.lines.view(), observation_.camera, best->refined.pose,
+                  refinement_prior(yaw, best->tracked), config_.kernels, polish_gate, polish_steps);
   if (refined.converged) best->refined = refined;
 }
 

@@ -48,6 +48,8 @@ const char* first_bad_key(const LocalizerConfig& c) {
   if (!in_range(c.line_sigma_floor, 1e-3F, 0.5F)) return "line_sigma_floor";
   if (!in_range(c.landmark_variance_floor, 1e-4F, 10.0F)) return "landmark_variance_floor";
   if (!in_range(c.confident, 0.0F, 1.0F)) return "confident";
+  if (c.kernels.line_costs == nullptr || c.kernels.landmark_costs == nullptr || c.kernels.linearise == nullptr)
+    return "kernels";
   return nullptr;
 }
 

@@ -84,10 +84,10 @@ class Localizer {
 
   // Steps of the full model, in this order (full_model.cpp).
   float weigh_particles(const YawEvidence& yaw);
-  [[nodiscard]] float particle_log_likelihood(const Pose2& pose, const YawEvidence& yaw, float& lines) const;
   void inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share);
   void refine_clusters(const VisionResult& vision, const YawEvidence& yaw);
-  void look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw, Mode& mode);
+  void look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw,
+                    LandmarkTerms& landmarks, Mode& mode);
   [[nodiscard]] RefinementPrior refinement_prior(const YawEvidence& yaw, bool tracked) const;
   void balance_twins(const YawEvidence& yaw);
   void share_out_mass();

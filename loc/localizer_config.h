@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "loc/kernels.h"
 #include "platform/core/angle.h"
 #include "platform/core/geometry.h"
 
@@ -74,6 +75,9 @@ struct LocalizerConfig {
   float line_sigma_floor = 0.012F;        // m: paint, carpet and calibration are no better
 
   float confident = 0.80F;  // confidence from which a pose counts as sure
+
+  /// Wider vectors where the processor has them (fastest_loc_kernels() of platform/processor); the result is the same.
+  LocKernels kernels = portable_loc_kernels();
 };
 
 }  // namespace touchline

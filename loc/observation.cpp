@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/observation.h"
 
+#include "loc/localizer_config.h"
 #include "platform/core/elementary.h"
 
 namespace touchline {
@@ -11,33 +12,28 @@ namespace {
 /// come out far away and far apart.
 constexpr float telling_sigma = 0.10F;
 
-/// Metres across the line that one sigma of pitch and of roll make at this point: ground = -h r_xy / r_z, so a tilt
-/// moves it by (h^2 + d^2) / h along the sight and by d^2 / h * (cross-axis share), bounded here by d, across it.
-float tilt_across(const GroundPoint& ground, const CameraPose& camera, float dir_x, float dir_y, float tilt_sigma) {
-  const float x = ground.x - camera.x;
-  const float y = ground.y - camera.y;
-  const float d = math::max(math::hypot(x, y), 1e-3F);
-  const float along_sight = math::abs(-dir_y * x + dir_x * y) / d;  // |normal . sight|
-  const float h = camera.height;
-  const float radial = (h * h + d * d) / h * along_sight;
-  const float tangential = d * math::sqrt(math::max(0.0F, 1.0F - along_sight * along_sight));
-  return tilt_sigma * math::hypot(radial, tangential);
+/// Square metres across the line that one sigma of pitch and of roll make at a point of squared range `d2` (at least
+/// 1e-6 m^2): ground = -h r_xy / r_z, so a tilt moves it by (h^2 + d^2) / h along the sight and by d^2 / h *
+/// (cross-axis share), bounded here by d, across it. `off2`: square of the line's normal times the point.
+float tilt_variance(float d2, float off2, float height, float tilt_sigma) {
+  const float radial = (height * height + d2) / height;
+  const float tangential = math::max(0.0F, d2 - off2);  // squared, and so is the share below
+  return tilt_sigma * tilt_sigma * (radial * radial * (off2 / d2) + tangential);
 }
 
 LineSample make_sample(const LinePoint& p, const CameraPose& camera, const LocalizerConfig& config) {
   LineSample s;
-  s.ray = p.ray;
   s.ground = p.ground;
-  const auto [sine, cosine] = math::sin_cos(p.direction);
-  s.dir_x = cosine;
-  s.dir_y = sine;
-  s.sigma = math::hypot(p.sigma, config.line_sigma_floor);
-  const float tilt = tilt_across(p.ground, camera, s.dir_x, s.dir_y, config.tilt_sigma);
-  s.variance = s.sigma * s.sigma + tilt * tilt;
+  s.dir_x = p.dir_x;
+  s.dir_y = p.dir_y;
+  s.own_variance = math::square(p.sigma) + math::square(config.line_sigma_floor);
+  const float x = p.ground.x - camera.x;
+  const float y = p.ground.y - camera.y;
+  const float d2 = math::max(x * x + y * y, 1e-6F);
+  const float off2 = math::square(s.dir_x * y - s.dir_y * x);
   const float h = camera.height;
-  const float spread = config.tilt_sigma *
-                       (h * h + math::square(p.ground.x - camera.x) + math::square(p.ground.y - camera.y)) /
-                       (h * telling_sigma);
+  s.variance = s.own_variance + tilt_variance(d2, off2, h, config.tilt_sigma);
+  const float spread = config.tilt_sigma * (h * h + x * x + y * y) / (h * telling_sigma);
   s.weight = math::min(1.0F, p.length / metres_per_measurement) / (1.0F + spread * spread);
   return s;
 }
@@ -45,10 +41,11 @@ LineSample make_sample(const LinePoint& p, const CameraPose& camera, const Local
 /// Every n-th sample, each with the weight of those it stands for.
 void thin_out(Observation& out) {
   const std::size_t step = (out.lines.size() + max_filter_samples - 1) / max_filter_samples;
+  const LineSampleView all = out.lines.view();
   out.line_weight = 0.0F;
   for (std::size_t i = 0; i < out.lines.size(); i += step) {
     LineSample s = out.lines[i];
-    for (std::size_t k = i + 1; k < i + step && k < out.lines.size(); ++k) s.weight += out.lines[k].weight;
+    for (std::size_t k = i + 1; k < i + step && k < out.lines.size(); ++k) s.weight += all.weight[k];
     out.line_weight += s.weight;
     out.filter_lines.push_back(s);
   }

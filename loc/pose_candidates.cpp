@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/pose_candidates.h"
 
+#include <algorithm>
 #include <array>
 
-#include "loc/robust.h"
 #include "platform/core/elementary.h"
 
 namespace touchline {
@@ -44,20 +44,35 @@ void offer(const PoseCandidate& c, CandidateList& list) {
   if (c.score > worst->score) *worst = c;
 }
 
-struct Search {
-  const Field& field;
-  const DistanceField& map;
-  const Observation& observation;
-  Landmarks landmarks;
-  const YawEvidence& yaw;
-  CandidateList& out;
+class Search {
+ public:
+  Search(const Field& field, const DistanceField& map, const Observation& observation, const LocalizerConfig& config,
+         const YawEvidence& yaw, CandidateList& out)
+      : field_(field), yaw_(yaw), kernels_(config.kernels), out_(out) {
+    prepare_lines(map, observation, coarse_sigma, 1, lines_);
+    prepare_landmarks(field, observation, config.landmarks, coarse_sigma, landmarks_);
+    prepare_lines(map, observation, coarse_sigma, (observation.filter_lines.size() + grid_samples - 1) / grid_samples,
+                  few_lines_);
+  }
+
+  /// Scores come eight poses at a time: the last ones wait for this.
+  void finish() {
+    float lines[pose_lanes];
+    float landmarks[pose_lanes];
+    kernels_.line_costs(lines_, waiting_, lines);
+    kernels_.landmark_costs(landmarks_, waiting_, landmarks);
+    for (int i = 0; i < waiting_.count; ++i) {
+      const Pose2 pose{waiting_.x[i], waiting_.y[i], waiting_.theta[i]};
+      offer({pose, yaw_log_likelihood(yaw_, pose.theta) - (lines[i] + landmarks[i]), 0.0F, sources_[i]}, out_);
+    }
+    waiting_.count = 0;
+  }
 
   void consider(const Pose2& pose, CandidateSource source) {
-    if (!on_carpet(field, pose) || yaw_z2(yaw, pose.theta) > 25.0F) return;
-    const float score = line_log_likelihood(map, observation, pose, coarse_sigma) +
-                        landmark_log_likelihood(field, observation, landmarks, pose, coarse_sigma) +
-                        yaw_log_likelihood(yaw, pose.theta);
-    offer({pose, score, 0.0F, source}, out);
+    if (!on_carpet(field_, pose) || yaw_z2(yaw_, pose.theta) > 25.0F) return;
+    sources_[waiting_.count] = source;
+    waiting_.push_back(pose);
+    if (waiting_.count == pose_lanes) finish();
   }
 
   /// The pose that puts `seen` (robot's frame) onto `at` with heading `theta`.
@@ -69,7 +84,7 @@ struct Search {
 
   void from_junction(const Junction& j) {
     const int turns = j.type == JunctionType::x ? 4 : 1;
-    for (const FieldLandmark& l : field.landmarks()) {
+    for (const FieldLandmark& l : field_.landmarks()) {
       if (l.type != j.type) continue;
       for (int k = 0; k < turns; ++k) {
         const float theta = l.direction[0] - j.direction[0] + static_cast<float>(k) * math::half_pi;
@@ -83,63 +98,51 @@ struct Search {
       for (const float half_line : {math::half_pi, -math::half_pi}) {
         consider(pose_from_point(circle.centre, {}, half_line - circle.half_line_direction), CandidateSource::circle);
       }
-    } else if (yaw.known) {
-      consider(pose_from_point(circle.centre, {}, yaw.theta), CandidateSource::circle);
+    } else if (yaw_.known) {
+      consider(pose_from_point(circle.centre, {}, yaw_.theta), CandidateSource::circle);
     }
   }
 
   void from_posts(const Features& features) {
-    if (!yaw.known) return;
+    if (!yaw_.known) return;
     for (const PostObservation& post : features.posts) {
-      for (const FieldPoint& p : field.posts()) {
-        consider(pose_from_point(post.ground, p, yaw.theta), CandidateSource::junction);
+      for (const FieldPoint& p : field_.posts()) {
+        consider(pose_from_point(post.ground, p, yaw_.theta), CandidateSource::junction);
       }
     }
   }
 
-  /// Turned samples for one orientation, so that a position costs two additions and a look-up a sample.
-  struct Turned {
-    float x, y, inverse_variance, weight;
-    LineAxis axis;
-  };
-  using TurnedList = StaticVector<Turned, max_filter_samples>;
-
-  void turn_samples(float theta, TurnedList& turned) const {
-    const float c = math::cos(theta);
-    const float s = math::sin(theta);
-    const std::size_t step = (observation.filter_lines.size() + grid_samples - 1) / grid_samples;
-    for (std::size_t i = 0; i < observation.filter_lines.size(); i += step) {
-      const LineSample& p = observation.filter_lines[i];
-      const float variance = p.variance + coarse_sigma * coarse_sigma;
-      turned.push_back({c * p.ground.x - s * p.ground.y, s * p.ground.x + c * p.ground.y, 1.0F / variance, p.weight,
-                        axis_of(c * p.dir_x - s * p.dir_y, s * p.dir_x + c * p.dir_y)});
+  /// Minus the cost of the lines at a column of positions on the grid, from `low` on in steps of the grid.
+  void grid_scores(float x, int low, int count, float theta, float* scores) const {
+    const auto [s, c] = math::sin_cos(theta);
+    for (int k = 0; k < count; k += pose_lanes) {
+      PoseBlock block;
+      block.count = std::min(pose_lanes, count - k);
+      for (int i = 0; i < block.count; ++i) {
+        block.x[i] = x;
+        block.y[i] = static_cast<float>(low + k + i) * grid_step;
+        block.sin[i] = s;
+        block.cos[i] = c;
+      }
+      float costs[pose_lanes];
+      kernels_.line_costs(few_lines_, block, costs);
+      for (int i = 0; i < block.count; ++i) scores[k + i] = -costs[i];
     }
-  }
-
-  [[nodiscard]] float grid_score(const TurnedList& turned, float x, float y) const {
-    float sum = 0.0F;
-    for (const Turned& t : turned) {
-      const float d = map.distance_inline({x + t.x, y + t.y}, t.axis);
-      sum -= t.weight * robust_cost(d * d * t.inverse_variance);
-    }
-    return sum;
   }
 
   /// Only local maxima over the eight neighbours are considered in full: three rows of scores are enough to see them.
   void from_grid(float theta) {
-    TurnedList turned;
-    turn_samples(theta, turned);
-    const int nx = static_cast<int>(field.half_carpet_length() / grid_step);
-    const int ny = static_cast<int>(field.half_carpet_width() / grid_step);
+    const int nx = static_cast<int>(field_.half_carpet_length() / grid_step);
+    const int ny = static_cast<int>(field_.half_carpet_width() / grid_step);
     const int columns = 2 * ny + 1;
     std::array<std::array<float, max_grid_columns>, 3> rows;
     for (auto& row : rows) row.fill(-1e9F);
     for (int i = -nx; i <= nx + 1; ++i) {
       auto& newest = rows[static_cast<std::size_t>((i + nx + 2) % 3)];
-      for (int k = 0; k < columns; ++k) {
-        newest[static_cast<std::size_t>(k + 1)] =
-            i > nx ? -1e9F
-                   : grid_score(turned, static_cast<float>(i) * grid_step, static_cast<float>(k - ny) * grid_step);
+      if (i > nx) {
+        newest.fill(-1e9F);
+      } else {
+        grid_scores(static_cast<float>(i) * grid_step, -ny, columns, theta, newest.data() + 1);
       }
       const auto& middle = rows[static_cast<std::size_t>((i + nx + 1) % 3)];
       const auto& oldest = rows[static_cast<std::size_t>((i + nx) % 3)];
@@ -157,6 +160,16 @@ struct Search {
     return here > row[k - 1] && here >= row[k + 1] && here > above[k - 1] && here > above[k] && here > above[k + 1] &&
            here >= below[k - 1] && here >= below[k] && here >= below[k + 1];
   }
+
+ private:
+  PoseBlock waiting_;
+  LineTerms lines_, few_lines_;
+  LandmarkTerms landmarks_;
+  const Field& field_;
+  const YawEvidence& yaw_;
+  const LocKernels& kernels_;
+  CandidateList& out_;
+  CandidateSource sources_[pose_lanes] = {};
 };
 
 /// Direction of most of the seen line, modulo a right angle, in [0, pi/2): peak of a histogram of 3 degree bins.
@@ -164,12 +177,13 @@ struct Search {
 bool dominant_direction(const Observation& observation, float& out) {
   constexpr int bins = 30;
   std::array<float, bins> histogram{};
-  for (const LineSample& s : observation.lines) {
-    float a = math::atan2(s.dir_y, s.dir_x);
+  const LineSampleView samples = observation.lines.view();
+  for (int i = 0; i < samples.count; ++i) {
+    float a = math::atan2(samples.dir_y[i], samples.dir_x[i]);
     if (a < 0.0F) a += math::pi;
     if (a >= math::half_pi) a -= math::half_pi;
     const int bin = static_cast<int>(a * (bins / math::half_pi));
-    histogram[static_cast<std::size_t>(bin < 0 ? 0 : bin % bins)] += s.weight;
+    histogram[static_cast<std::size_t>(bin < 0 ? 0 : bin % bins)] += samples.weight[i];
   }
   int best = -1;
   float best_sum = 0.0F;
@@ -201,12 +215,12 @@ void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
   }
 }
 
-void find_candidates(const Field& field, const DistanceField& map, const Observation& observation, Landmarks landmarks,
-                     const YawEvidence& yaw, CandidateList& out) {
+void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
+                     const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out) {
   out.clear();
   if (observation.features == nullptr) return;
-  Search search{field, map, observation, landmarks, yaw, out};
-  if (landmarks != Landmarks::goalposts) {
+  Search search(field, map, observation, config, yaw, out);
+  if (config.landmarks != Landmarks::goalposts) {
     for (const Junction& j : observation.features->junctions) search.from_junction(j);
     if (observation.features->has_circle) search.from_circle(observation.features->circle);
     float direction = 0.0F;
@@ -217,7 +231,8 @@ void find_candidates(const Field& field, const DistanceField& map, const Observa
       }
     }
   }
-  if (landmarks != Landmarks::lines) search.from_posts(*observation.features);
+  if (config.landmarks != Landmarks::lines) search.from_posts(*observation.features);
+  search.finish();
   sort_best_first(out);
 }
 

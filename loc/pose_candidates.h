@@ -21,8 +21,8 @@ inline constexpr std::size_t max_pose_candidates = 32;  // several times the pos
 using CandidateList = StaticVector<PoseCandidate, max_pose_candidates>;
 
 /// The best candidates, best first, no two within 0.35 m and 20 degrees of each other. Empty when nothing is seen.
-void find_candidates(const Field& field, const DistanceField& map, const Observation& observation, Landmarks landmarks,
-                     const YawEvidence& yaw, CandidateList& out);
+void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
+                     const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out);
 
 /// By score, for a caller that has changed the scores.
 void sort_best_first(CandidateList& list);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/refinement.h"
 
-#include "loc/distance_field.h"
-#include "loc/robust.h"
 #include "loc/small_solver.h"
 #include "platform/core/elementary.h"
 
@@ -20,83 +18,30 @@ TiltAxes tilt_axes(const CameraPose& camera) {
   return {multiply(yaw, Vec3{0.0F, 1.0F, 0.0F}), multiply(yaw_pitch, Vec3{1.0F, 0.0F, 0.0F})};
 }
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 struct State {
   Pose2 pose;
   float pitch = 0.0F;
   float roll = 0.0F;
 };
 
-/// Ground point of a sample under the state's tilt, and its derivatives by pitch and roll. Small angles: first order.
-struct TiltedPoint {
-  float x, y;
-  float x_pitch, y_pitch;
-  float x_roll, y_roll;
-};
-bool tilt_point(const LineSample& s, const CameraPose& camera, const TiltAxes& axes, const State& state,
-                TiltedPoint& out) {
-  const Vec3 dp = cross(axes.pitch, s.ray);
-  const Vec3 dr = cross(axes.roll, s.ray);
-  const Vec3 r{s.ray.x + state.pitch * dp.x + state.roll * dr.x, s.ray.y + state.pitch * dp.y + state.roll * dr.y,
-               s.ray.z + state.pitch * dp.z + state.roll * dr.z};
-  if (r.z > -0.02F) return false;  // within about a degree of the horizon a point says nothing
-  const float inverse_z = 1.0F / r.z;
-  const float scale = -camera.height * inverse_z;
-  out.x = camera.x + scale * r.x;
-  out.y = camera.y + scale * r.y;
-  const float k = -camera.height * inverse_z * inverse_z;
-  out.x_pitch = k * (dp.x * r.z - r.x * dp.z);
-  out.y_pitch = k * (dp.y * r.z - r.y * dp.z);
-  out.x_roll = k * (dr.x * r.z - r.x * dr.z);
-  out.y_roll = k * (dr.y * r.z - r.y * dr.z);
-  return true;
-}
-
-struct Sums {
-  NormalEquations normal;
-  float log_likelihood = 0.0F;
-  float explained = 0.0F;
-  float weight = 0.0F;
-};
-
 /// One linearisation: residual = distance to the nearest line of the right direction; `base` is added to every sigma
 /// while the pose is still rough.
-Sums linearise(const Field& field, std::span<const LineSample> samples, const CameraPose& camera, const TiltAxes& axes,
-               const State& state, float base, float reach) {
-  Sums sums;
-  const auto [sn, c] = math::sin_cos(state.pose.theta);
-  for (const LineSample& s : samples) {
-    sums.weight += s.weight;
-    const float sigma = math::hypot(s.sigma, base);
-    TiltedPoint g{};
-    LineMatch line;
-    bool near = tilt_point(s, camera, axes, state, g);
-    if (near) {
-      line = nearest_line(field, {state.pose.x + c * g.x - sn * g.y, state.pose.y + sn * g.x + c * g.y},
-                          c * s.dir_x - sn * s.dir_y, sn * s.dir_x + c * s.dir_y);
-      near = math::abs(line.distance) < math::max(reach, 4.0F * sigma);
-    }
-    if (!near) {
-      sums.log_likelihood -= s.weight * robust_limit;
-      continue;
-    }
-    const float z2 = math::square(line.distance / sigma);
-    const float pull = robust_weight(z2);
-    sums.log_likelihood -= s.weight * robust_cost(z2);
-    sums.explained += s.weight * pull;
-    const float w = s.weight * pull / (sigma * sigma);
-    const float nx = line.normal_x;
-    const float ny = line.normal_y;
-    const float rx = c * nx + sn * ny;  // normal in the robot's frame
-    const float ry = -sn * nx + c * ny;
-    const PoseVector j = {nx, ny, nx * (-sn * g.x - c * g.y) + ny * (c * g.x - sn * g.y),
-                          rx * g.x_pitch + ry * g.y_pitch, rx * g.x_roll + ry * g.y_roll};
-    sums.normal.add(j, line.distance, w);
-  }
-  return sums;
+struct Linearisation {
+  NormalEquations normal;
+  RefineSums sums;
+};
+Linearisation linearise(RefineTerms& terms, const State& state, float base, const LocKernels& kernels) {
+  const auto [s, c] = math::sin_cos(state.pose.theta);
+  terms.pose = state.pose;
+  terms.sin = s;
+  terms.cos = c;
+  terms.pitch = state.pitch;
+  terms.roll = state.roll;
+  terms.extra_variance = base * base;
+  Linearisation out;
+  kernels.linearise(terms, out.sums);
+  out.normal.add_sums(out.sums.hessian, out.sums.gradient);
+  return out;
 }
 
 void add_prior(const RefinementPrior& prior, const State& state, NormalEquations& normal) {
@@ -122,18 +67,35 @@ void add_prior(const RefinementPrior& prior, const State& state, NormalEquations
 
 }  // namespace
 
-Refinement refine_pose(const Field& field, std::span<const LineSample> samples, const CameraPose& camera,
-                       const Pose2& start, const RefinementPrior& prior, float reach, int steps) {
+QuarterLines quarter_lines(const Field& field) {
+  QuarterLines out;
+  const auto take = [](std::span<const AxisLine> lines, QuarterLines::Line* to) {
+    int n = 0;
+    for (const AxisLine& line : lines) {
+      if (line.across >= 0.0F && line.high > 0.0F) to[n++] = {math::max(line.low, 0.0F), line.high, line.across};
+    }
+    return n;
+  };
+  out.along_x_count = take(field.lines_along_x(), out.along_x);
+  out.along_y_count = take(field.lines_along_y(), out.along_y);
+  out.circle_radius = field.dimensions().circle_radius;
+  return out;
+}
+
+Refinement refine_pose(const QuarterLines& lines, const LineSampleView& samples, const CameraPose& camera,
+                       const Pose2& start, const RefinementPrior& prior, const LocKernels& kernels, float reach,
+                       int steps) {
   const TiltAxes axes = tilt_axes(camera);
+  RefineTerms terms{samples, lines, camera, axes.pitch, axes.roll, {}};
   State state{start, 0.0F, 0.0F};
   Refinement out;
   float base = 0.25F * reach;  // graduated: a line pulls from afar at first, and from close by in the end
   for (int i = 0; i < steps; ++i) {
-    Sums sums = linearise(field, samples, camera, axes, state, base, 4.0F * base);
+    Linearisation linear = linearise(terms, state, base, kernels);
     base *= 0.6F;
-    add_prior(prior, state, sums.normal);
+    add_prior(prior, state, linear.normal);
     PoseVector step;
-    if (!sums.normal.solve(step)) return out;
+    if (!linear.normal.solve(step)) return out;
     state.pose.x -= step[0];
     state.pose.y -= step[1];
     state.pose.theta = wrap_angle(state.pose.theta - step[2]);
@@ -141,14 +103,14 @@ Refinement refine_pose(const Field& field, std::span<const LineSample> samples, 
     state.roll -= step[4];
     out.converged = math::abs(step[0]) + math::abs(step[1]) < 0.01F && math::abs(step[2]) < 0.01F;
   }
-  Sums last = linearise(field, samples, camera, axes, state, 0.0F, 0.0F);
+  Linearisation last = linearise(terms, state, 0.0F, kernels);
   add_prior(prior, state, last.normal);
   out.pose = state.pose;
   out.pitch_error = state.pitch;
   out.roll_error = state.roll;
   out.converged = last.normal.pose_covariance(out.covariance) && out.converged;
-  out.line_log_likelihood = last.log_likelihood;
-  out.explained = last.weight > 0.0F ? last.explained / last.weight : 0.0F;
+  out.line_log_likelihood = -last.sums.cost;
+  out.explained = last.sums.weight > 0.0F ? last.sums.explained / last.sums.weight : 0.0F;
   return out;
 }
 

@@ -3,9 +3,7 @@
 // (iteratively re-weighted least squares; Hartley & Zisserman, appendix 6).
 #pragma once
 
-#include <span>
-
-#include "loc/field.h"
+#include "loc/kernels.h"
 #include "loc/observation.h"
 #include "loc/pose_estimate.h"
 
@@ -33,7 +31,8 @@ struct Refinement {
 };
 
 /// `start` within about `reach` metres and 15 degrees. The reach of a line shrinks from step to step to 4 sigma.
-Refinement refine_pose(const Field& field, std::span<const LineSample> samples, const CameraPose& camera,
-                       const Pose2& start, const RefinementPrior& prior, float reach = 0.4F, int steps = 8);
+Refinement refine_pose(const QuarterLines& lines, const LineSampleView& samples, const CameraPose& camera,
+                       const Pose2& start, const RefinementPrior& prior, const LocKernels& kernels, float reach = 0.4F,
+                       int steps = 8);
 
 }  // namespace touchline

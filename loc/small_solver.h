@@ -12,11 +12,12 @@ using PoseVector = float[pose_unknowns];
 /// J^T W J and J^T W r of a weighted least-squares problem.
 class NormalEquations {
  public:
-  void add(const PoseVector& j, float residual, float weight) {
+  /// Sums over measurements: the lower triangle of J^T W J row by row, and J^T W r.
+  void add_sums(const float (&lower)[pose_unknowns * (pose_unknowns + 1) / 2], const PoseVector& gradient) {
+    int at = 0;
     for (int a = 0; a < pose_unknowns; ++a) {
-      const float wj = weight * j[a];
-      gradient_[a] += wj * residual;
-      for (int b = 0; b <= a; ++b) hessian_[a][b] += wj * j[b];
+      gradient_[a] += gradient[a];
+      for (int b = 0; b <= a; ++b) hessian_[a][b] += lower[at++];
     }
   }
   /// A measurement of one unknown.

@@ -69,12 +69,12 @@ struct PostObservation {
 
 /// A point on the middle of a line.
 struct LinePoint {
-  PixelPoint pixel;     // camera pixels, better than a working pixel where the profile allows it
-  Vec3 ray;             // unit vector in the robot's axes, from the camera, with the attitude as given
-  GroundPoint ground;   // robot's frame, with the attitude as given
-  float direction = 0;  // of the line on the ground, radians in (-pi/2, pi/2]
-  float length = 0;     // metres of line on the ground that this point stands for
-  float sigma = 0;      // metres on the ground, 1 sigma across the line, of one working pixel
+  PixelPoint pixel;    // camera pixels, better than a working pixel where the profile allows it
+  GroundPoint ground;  // robot's frame, with the attitude as given
+  float dir_x = 1.0F;  // unit direction of the line on the ground, robot's frame; dir_x > 0, or it is 0 and dir_y is 1
+  float dir_y = 0.0F;
+  float length = 0;  // metres of line on the ground that this point stands for
+  float sigma = 0;   // metres on the ground, 1 sigma across the line, of one working pixel
 };
 
 inline constexpr std::size_t max_junctions = 32;  // a 14 x 9 m field has 2 X, 6 T, 16 L in all; the rest is clutter

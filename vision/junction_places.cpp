@@ -14,7 +14,7 @@ constexpr float gate_px = 2.5F;         // likewise, across the branch: farther 
 constexpr float gate_widths = 0.75F;
 constexpr float begin_px = 1.5F;  // beyond the edge of the line across, where its blur ends
 constexpr float end_m = 0.6F;     // tilt and an uneven carpet bend what is farther away
-constexpr float same_direction = radians(15.0F);
+constexpr float sin_same_direction = 0.258819045F;  // of 15 degrees
 constexpr float branch_sigma = radians(3.0F);  // of a branch's direction, as the search gave it
 
 /// A place's correction with its information matrix: the sum of what the branches say.
@@ -52,7 +52,7 @@ BranchFit fit_branch(const Junction& j, float direction, float line_width_m, std
     const float across = dy * out.x - dx * out.y;
     if (along < 0.5F * line_width_m + begin_px * p.sigma || along > end_m) continue;
     if (math::abs(across) > math::max(gate_widths * line_width_m, gate_px * p.sigma)) continue;
-    if (math::abs(angle_difference(2.0F * p.direction, 2.0F * direction)) > 2.0F * same_direction) continue;
+    if (math::abs(out.x * p.dir_y - out.y * p.dir_x) > sin_same_direction) continue;
     fit.add(along, across, 1.0F / math::square(point_sigma_px * p.sigma));
   }
   return fit;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int direction_radius_px = 5;  // of the skeleton's pixels that give the direction, at a working width of 320
 constexpr int max_half_width_px = 40;   // a line this wide fills the picture
-constexpr float side_px = 2.0F;         // how far beyond the mask's edge the carpet is sampled
+constexpr int side_px = 2;              // how far beyond the mask's edge the carpet is sampled
 
 struct Vec2 {
   float u = 0.0F, v = 0.0F;
@@ -111,84 +111,110 @@ bool direction_at(ConstBitView skeleton, GridPoint at, int radius, Vec2& directi
   return true;
 }
 
-/// Bilinear luma at a continuous working pixel; negative outside the image.
-float luma_at(ImageView<const std::uint8_t> luma, const Vec2& p) {
-  const float x = p.u - 0.5F;
-  const float y = p.v - 0.5F;
-  if (x < 0.0F || y < 0.0F) return -1.0F;
-  const int ix = static_cast<int>(x);
-  const int iy = static_cast<int>(y);
-  if (ix + 1 >= luma.width || iy + 1 >= luma.height) return -1.0F;
-  const float fx = x - static_cast<float>(ix);
-  const float fy = y - static_cast<float>(iy);
-  const std::uint8_t* top = luma.row(iy) + ix;
-  const std::uint8_t* bottom = luma.row(iy + 1) + ix;
-  const float upper = static_cast<float>(top[0]) + fx * static_cast<float>(top[1] - top[0]);
-  const float lower = static_cast<float>(bottom[0]) + fx * static_cast<float>(bottom[1] - bottom[0]);
-  return upper + fy * (lower - upper);
-}
+/// The luma and the mask along a straight line, in steps of an eighth of a pixel from a pixel's centre. Fixed point,
+/// 1/65536.
+class Profile {
+ public:
+  Profile(ImageView<const std::uint8_t> luma, ConstBitView mask, GridPoint from, const Vec2& along)
+      : luma_(luma), mask_(mask), u_(from.x * one), v_(from.y * one), du_(fixed(along.u)), dv_(fixed(along.v)) {}
 
-Vec2 along(const Vec2& p, const Vec2& d, float t) { return {p.u + d.u * t, p.v + d.v * t}; }
-
-/// How far the mask reaches from `p` along `d`, in whole steps; negative when it does not end within reach.
-int mask_reach(ConstBitView mask, const Vec2& p, const Vec2& d) {
-  for (int k = 1; k <= max_half_width_px; ++k) {
-    const Vec2 q = along(p, d, static_cast<float>(k));
-    if (q.u < 0.0F || q.v < 0.0F) return -1;
-    const int x = static_cast<int>(q.u);
-    const int y = static_cast<int>(q.v);
-    if (x >= mask.width || y >= mask.height) return -1;
-    if (!mask.get(x, y)) return k;
+  /// Is there a luma sample (the middle of four pixels' centres) this far away?
+  [[nodiscard]] bool inside(int eighths) const {
+    const std::int32_t u = u_ + eighths * du_;
+    const std::int32_t v = v_ + eighths * dv_;
+    return u >= 0 && v >= 0 && u < (luma_.width - 1) * one && v < (luma_.height - 1) * one;
   }
-  return -1;
-}
+  /// Bilinear, in 1/65536; where inside().
+  [[nodiscard]] std::int32_t luma(int eighths) const {
+    const std::int32_t u = u_ + eighths * du_;
+    const std::int32_t v = v_ + eighths * dv_;
+    const std::int32_t fu = (u >> 8) & 255;
+    const std::int32_t fv = (v >> 8) & 255;
+    const std::uint8_t* top = luma_.row(v >> 16) + (u >> 16);
+    const std::uint8_t* bottom = top + luma_.stride;
+    const std::int32_t upper = top[0] * 256 + fu * (top[1] - top[0]);
+    const std::int32_t lower = bottom[0] * 256 + fu * (bottom[1] - bottom[0]);
+    return upper * 256 + fv * (lower - upper);
+  }
+  /// How far the mask reaches, in whole pixels; `sign` 1 ahead, -1 back. Negative when it does not end within reach.
+  [[nodiscard]] int mask_reach(int sign) const {
+    std::int32_t u = u_ + one / 2;  // from the pixel's corner
+    std::int32_t v = v_ + one / 2;
+    for (int k = 1; k <= max_half_width_px; ++k) {
+      u += sign * 8 * du_;
+      v += sign * 8 * dv_;
+      const int x = u >> 16;
+      const int y = v >> 16;
+      if (x < 0 || y < 0 || x >= mask_.width || y >= mask_.height) return -1;
+      if (!mask_.get(x, y)) return k;
+    }
+    return -1;
+  }
 
-/// Where the luma falls through the middle between the line's and the carpet's, along `d` from `p`; false when it does
-/// not.
-bool find_edge(ImageView<const std::uint8_t> luma, const Vec2& p, const Vec2& d, int reach, float line_level,
-               float& edge) {
-  const float end = static_cast<float>(reach) + side_px;
-  const float carpet_a = luma_at(luma, along(p, d, end - 0.5F));
-  const float carpet_b = luma_at(luma, along(p, d, end - 1.0F));
-  const float carpet_c = luma_at(luma, along(p, d, end));
-  if (carpet_a < 0.0F || carpet_b < 0.0F || carpet_c < 0.0F) return false;
-  const float carpet = math::min(carpet_a, math::min(carpet_b, carpet_c));
-  if (line_level <= carpet + 2.0F) return false;
-  const float level = 0.5F * (line_level + carpet);
-  constexpr float step = 0.5F;
+ private:
+  static constexpr std::int32_t one = 65536;
+  /// Of a part of a unit vector, in an eighth of a pixel.
+  static std::int32_t fixed(float part) {
+    const float scaled = part * (static_cast<float>(one) / 8.0F);
+    return static_cast<std::int32_t>(scaled < 0.0F ? scaled - 0.5F : scaled + 0.5F);
+  }
+  ImageView<const std::uint8_t> luma_;
+  ConstBitView mask_;
+  std::int32_t u_, v_, du_, dv_;
+};
+
+/// Where the luma falls through the middle between the line's and the carpet's, in pixels ahead (`sign` 1) or back
+/// (-1); false when it does not.
+bool find_edge(const Profile& profile, int sign, int reach, std::int32_t line_level, float& edge) {
+  constexpr int step = 4;  // half a pixel
+  const int end = 8 * (reach + side_px);
+  if (!profile.inside(sign * end)) return false;
+  const std::int32_t near_end[2] = {profile.luma(sign * (end - step)), profile.luma(sign * (end - 2 * step))};
+  const std::int32_t carpet = std::min({profile.luma(sign * end), near_end[0], near_end[1]});
+  if (line_level <= carpet + 2 * 65536) return false;
+  const std::int32_t level = (line_level + carpet) / 2;
   // Inward from the carpet, so that a hole in a worn line does no harm.
-  float t = end;
-  float outer = carpet;
-  while (t > 0.0F) {
-    const float inner = luma_at(luma, along(p, d, t - step));
-    if (inner >= level && outer < level) {
-      edge = t - step * (level - outer) / (inner - outer);
+  std::int32_t outer = carpet;
+  for (int k = 1; k * step <= end; ++k) {
+    const std::int32_t inner = k <= 2 ? near_end[k - 1] : profile.luma(sign * (end - k * step));
+    if (inner >= level) {
+      const float share = static_cast<float>(level - outer) / static_cast<float>(inner - outer);
+      const int steps_out = end / step - (k - 1);
+      edge = 0.5F * (static_cast<float>(steps_out) - share);
       return true;
     }
     outer = inner;
-    t -= step;
   }
   return false;
+}
+
+/// How far the ground point moves per pixel along `d`: the derivative of height * ray.xy / -ray.z.
+GroundPoint ground_slope(const RayPatch& at, const Vec2& d, float height) {
+  const Vec3 change{d.u * at.by_u.x + d.v * at.by_v.x, d.u * at.by_u.y + d.v * at.by_v.y,
+                    d.u * at.by_u.z + d.v * at.by_v.z};
+  const float inverse_z = 1.0F / at.ray.z;
+  const float reach = -height * inverse_z;
+  const float share = change.z * inverse_z;
+  return {reach * (change.x - at.ray.x * share), reach * (change.y - at.ray.y * share)};
 }
 
 class PointFinder {
  public:
   explicit PointFinder(const LinePointInput& input)
-      : input_(input),
-        scale_u_(static_cast<float>(input.frame_width) / static_cast<float>(input.luma.width)),
-        scale_v_(static_cast<float>(input.frame_height) / static_cast<float>(input.luma.height)),
-        radius_(std::clamp(direction_radius_px * input.luma.width / 320, 3, 7)) {}
+      : input_(input), radius_(std::clamp(direction_radius_px * input.luma.width / 320, 3, 7)) {}
 
   /// One skeleton pixel; counts the reason when there is no point.
   bool find(GridPoint pixel, LinePoint& point, LinePointCounts& counts) const {
     Vec2 tangent;
     if (!direction_at(input_.skeleton, pixel, radius_, tangent)) return fail(counts.no_direction);
     const Vec2 normal{-tangent.v, tangent.u};
-    const Vec2 start{static_cast<float>(pixel.x) + 0.5F, static_cast<float>(pixel.y) + 0.5F};
-    Vec2 middle;
-    float measured_px = 0.0F;
-    if (!find_middle(start, normal, middle, measured_px)) return fail(counts.no_edge);
-    return locate(middle, tangent, normal, measured_px, point, counts);
+    float edge_a = 0.0F;
+    float edge_b = 0.0F;
+    if (!find_edges(Profile(input_.luma, input_.line_mask, pixel, normal), edge_a, edge_b)) return fail(counts.no_edge);
+    const float middle = 0.5F * (edge_a - edge_b);
+    const Vec2 at{static_cast<float>(pixel.x) + 0.5F + middle * normal.u,
+                  static_cast<float>(pixel.y) + 0.5F + middle * normal.v};
+    return locate(at, tangent, normal, edge_a + edge_b, point, counts);
   }
 
  private:
@@ -197,74 +223,70 @@ class PointFinder {
     return false;
   }
 
-  bool find_middle(const Vec2& start, const Vec2& normal, Vec2& middle, float& measured_px) const {
-    const Vec2 back{-normal.u, -normal.v};
-    const int reach_a = mask_reach(input_.line_mask, start, normal);
-    const int reach_b = mask_reach(input_.line_mask, start, back);
+  /// Distances of the line's edges from the profile's start, ahead and back.
+  static bool find_edges(const Profile& profile, float& ahead, float& back) {
+    const int reach_a = profile.mask_reach(1);
+    const int reach_b = profile.mask_reach(-1);
     if (reach_a < 0 || reach_b < 0) return false;
-    float level = 0.0F;  // of the line: the mean of its inner half, or the brightest of three where it is thin
+    // The samples of the level lie between those of the ends.
+    if (!profile.inside(8 * (reach_a + side_px)) || !profile.inside(-8 * (reach_b + side_px))) return false;
+    std::int32_t level = 0;  // of the line: the mean of its inner half, or the brightest of three where it is thin
     if (reach_a + reach_b <= 5) {
-      for (int k = -2; k <= 2; ++k)
-        level = math::max(level, luma_at(input_.luma, along(start, normal, 0.5F * static_cast<float>(k))));
+      for (int k = -2; k <= 2; ++k) level = std::max(level, profile.luma(4 * k));
     } else {
-      const float centre = 0.5F * static_cast<float>(reach_a - reach_b);
-      const float quarter = 0.25F * static_cast<float>(reach_a + reach_b);
-      float sum = 0.0F;
-      for (int k = -2; k <= 2; ++k)
-        sum += luma_at(input_.luma, along(start, normal, centre + 0.5F * quarter * static_cast<float>(k)));
-      level = sum / 5.0F;
+      const int centre = 4 * (reach_a - reach_b);
+      std::int32_t sum = 0;
+      for (int k = -2; k <= 2; ++k) sum += profile.luma(centre + k * (reach_a + reach_b));
+      level = sum / 5;
     }
-    float edge_a = 0.0F;
-    float edge_b = 0.0F;
-    if (!find_edge(input_.luma, start, normal, reach_a, level, edge_a)) return false;
-    if (!find_edge(input_.luma, start, back, reach_b, level, edge_b)) return false;
-    middle = along(start, normal, 0.5F * (edge_a - edge_b));
-    measured_px = edge_a + edge_b;
+    return find_edge(profile, 1, reach_a, level, ahead) && find_edge(profile, -1, reach_b, level, back);
+  }
+
+  /// The ground under the line's edges, `half` pixels to both sides; the middle of both, and its place in the picture.
+  bool find_middle(const Vec2& at, const Vec2& normal, float half, LinePoint& point) const {
+    const GroundProjection& projection = input_.rays.projection();
+    Vec3 ray_a, ray_b;
+    GroundPoint a, b;
+    if (!input_.rays.ray({at.u + half * normal.u, at.v + half * normal.v}, ray_a) ||
+        !input_.rays.ray({at.u - half * normal.u, at.v - half * normal.v}, ray_b) ||
+        !projection.intersect_ground(ray_a, a) || !projection.intersect_ground(ray_b, b)) {
+      return false;
+    }
+    point.ground = {0.5F * (a.x + b.x), 0.5F * (a.y + b.y)};
+    // Each edge counts in the picture by its distance from the camera, which goes with the inverse of its ray's z.
+    const float t = half * (ray_b.z - ray_a.z) / (ray_a.z + ray_b.z);
+    point.pixel = input_.rays.camera_pixel({at.u + t * normal.u, at.v + t * normal.v});
     return true;
   }
 
-  [[nodiscard]] PixelPoint camera(const Vec2& work) const { return {work.u * scale_u_, work.v * scale_v_}; }
-
   bool locate(const Vec2& middle, const Vec2& tangent, const Vec2& normal, float measured_px, LinePoint& point,
               LinePointCounts& counts) const {
-    const GroundProjection& projection = input_.projection;
-    GroundPoint before, after, left, right;
-    if (!projection.ground(camera(along(middle, tangent, -1.0F)), before) ||
-        !projection.ground(camera(along(middle, tangent, 1.0F)), after) ||
-        !projection.ground(camera(along(middle, normal, -0.5F)), left) ||
-        !projection.ground(camera(along(middle, normal, 0.5F)), right)) {
+    const CameraPose& pose = input_.rays.projection().pose();
+    RayPatch patch;
+    GroundPoint ground;
+    if (!input_.rays.patch({middle.u, middle.v}, patch) ||
+        !input_.rays.projection().intersect_ground(patch.ray, ground)) {
       return fail(counts.no_ground);
     }
-    const float run_x = after.x - before.x;
-    const float run_y = after.y - before.y;
-    const float run = math::hypot(run_x, run_y);
-    if (!(run > 0.0F)) return fail(counts.no_ground);
-    const float metres_a_px = math::abs((right.x - left.x) * run_y - (right.y - left.y) * run_x) / run;
+    const GroundPoint run = ground_slope(patch, tangent, pose.height);
+    const GroundPoint step = ground_slope(patch, normal, pose.height);
+    const float length = math::hypot(run.x, run.y);
+    if (!(length > 0.0F)) return fail(counts.no_ground);
+    const float metres_a_px = math::abs(step.x * run.y - step.y * run.x) / length;
     if (!(metres_a_px > 0.0F)) return fail(counts.no_ground);
     const float expected_px = input_.line_width_m / metres_a_px;
     if (!right_width(measured_px, expected_px)) return fail(counts.wrong_width);
-
     // The middle of a wide line in the image is not the middle on the ground: perspective makes the near half wider.
-    GroundPoint edge_a, edge_b;
-    if (!projection.ground(camera(along(middle, normal, 0.5F * measured_px)), edge_a) ||
-        !projection.ground(camera(along(middle, normal, -0.5F * measured_px)), edge_b)) {
+    if (!find_middle(middle, normal, expected_px < 3.0F ? 0.5F : 0.5F * measured_px, point)) {
       return fail(counts.no_ground);
     }
-    if (expected_px < 3.0F) {
-      edge_a = right;
-      edge_b = left;
-    }
-    point.ground = {0.5F * (edge_a.x + edge_b.x), 0.5F * (edge_a.y + edge_b.y)};
-    const CameraPose& pose = projection.pose();
-    if (math::hypot(point.ground.x - pose.x, point.ground.y - pose.y) > input_.max_range_m)
-      return fail(counts.no_ground);
-    if (!projection.pixel(point.ground, point.pixel)) return fail(counts.no_ground);
-    point.ray = normalized({point.ground.x - pose.x, point.ground.y - pose.y, -pose.height});
-    float direction = math::atan2(run_y, run_x);
-    if (direction > half_turn) direction -= 2.0F * half_turn;
-    if (direction <= -half_turn) direction += 2.0F * half_turn;
-    point.direction = direction;
-    point.length = 0.5F * run;
+    const float x = point.ground.x - pose.x;
+    const float y = point.ground.y - pose.y;
+    if (x * x + y * y > input_.max_range_m * input_.max_range_m) return fail(counts.no_ground);
+    const float sign = run.x > 0.0F || (run.x == 0.0F && run.y > 0.0F) ? 1.0F : -1.0F;
+    point.dir_x = sign * run.x / length;
+    point.dir_y = sign * run.y / length;
+    point.length = length;
     point.sigma = metres_a_px;
     return true;
   }
@@ -274,10 +296,7 @@ class PointFinder {
     return measured_px < 1.35F * expected_px + 1.5F && measured_px > 0.55F * expected_px - 0.5F;
   }
 
-  static constexpr float half_turn = 1.57079633F;  // directions of a line repeat after pi
   const LinePointInput& input_;
-  float scale_u_;
-  float scale_v_;
   int radius_;
 };
 

@@ -7,7 +7,7 @@
 #include "vision/features.h"
 #include "vision/image/bit_image.h"
 #include "vision/image/image_view.h"
-#include "vision/lens/camera_pose.h"
+#include "vision/work_rays.h"
 
 namespace touchline {
 
@@ -15,9 +15,7 @@ struct LinePointInput {
   ImageView<const std::uint8_t> luma;
   ConstBitView skeleton;
   ConstBitView line_mask;
-  const GroundProjection& projection;
-  int frame_width = 0;
-  int frame_height = 0;
+  const WorkRays& rays;
   float line_width_m = 0.05F;
   float max_range_m = 6.0F;
 };

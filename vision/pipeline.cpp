@@ -268,8 +268,10 @@ void Pipeline::find_goal_posts(VisionResult& result) {
 }
 
 void Pipeline::make_line_points(VisionResult& result) {
-  const LinePointInput input{result.mean.y,       result.skeleton,      result.line_mask,     result.projection,
-                             config_.frame_width, config_.frame_height, config_.line_width_m, config_.max_range_m};
+  const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
+                      views_.height);
+  const LinePointInput input{result.mean.y, result.skeleton,      result.line_mask,
+                             rays,          config_.line_width_m, config_.max_range_m};
   const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
   result.counts.dropped_line_points = counts.dropped;
   const float camera_px = static_cast<float>(config_.frame_width) / static_cast<float>(views_.width);

@@ -12,6 +12,11 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// A ray and how it turns: both in the robot's axes, per working pixel along u and along v.
+struct RayPatch {
+  Vec3 ray, by_u, by_v;
+};
+
 class WorkRays {
  public:
   /// `projection` must outlive this. `grid` was made for its lens.
@@ -20,6 +25,8 @@ class WorkRays {
 
   /// Ray (unit to 0.1 %) of a working point; false outside the lens.
   [[nodiscard]] bool ray(const WorkPoint& p, Vec3& ray) const;
+  /// The same with its derivatives, which are those between the corners of the grid around.
+  [[nodiscard]] bool patch(const WorkPoint& p, RayPatch& patch) const;
   /// Where a ground point lies in the working image; false outside the lens (it may lie outside the image).
   [[nodiscard]] bool work_point(const GroundPoint& p, float z, WorkPoint& work) const;
   [[nodiscard]] PixelPoint camera_pixel(const WorkPoint& p) const { return {p.u * per_work_u_, p.v * per_work_v_}; }
@@ -31,6 +38,12 @@ class WorkRays {
   [[nodiscard]] int work_height() const { return work_height_; }
 
  private:
+  struct Cell {
+    const Vec3 *upper = nullptr, *lower = nullptr;  // the left corners; the right ones follow
+    float u = 0.0F, v = 0.0F;                       // [0, 1) inside the cell
+  };
+  [[nodiscard]] bool find_cell(const WorkPoint& p, Cell& cell) const;
+
   const GroundProjection& projection_;
   RayGridView grid_;
   Mat3 robot_from_camera_;

@@ -65,6 +65,7 @@ Chain::Chain(const ChainOptions& options, const FieldDimensions& dimensions)
   if (const Status status = Field::create(dimensions, field, &what); status != Status::ok)
     refused(what, "the field", status);
   LocalizerConfig config;
+  config.kernels = fastest_loc_kernels();
   config.model = options.model;
   config.landmarks = options.landmarks;
   config.particles = options.particles;

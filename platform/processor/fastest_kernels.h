@@ -2,6 +2,7 @@
 // Asks the processor which of the kernels' tables it can run. Outside the core, which asks nobody.
 #pragma once
 
+#include "loc/kernels.h"
 #include "vision/image/kernels.h"
 
 namespace touchline {
@@ -12,6 +13,13 @@ inline Kernels fastest_kernels() {
   if (__builtin_cpu_supports("avx2") && avx2_kernels().name != nullptr) return avx2_kernels();
 #endif
   return portable_kernels();
+}
+
+inline LocKernels fastest_loc_kernels() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && avx2_loc_kernels().name != nullptr) return avx2_loc_kernels();
+#endif
+  return portable_loc_kernels();
 }
 
 }  // namespace touchline

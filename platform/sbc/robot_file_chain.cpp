@@ -96,6 +96,7 @@ void read_vision(KeyReader table, RobotFile& file) {
 
 void read_localization(KeyReader table, RobotFile& file) {
   LocalizerConfig& config = file.robot.localizer;
+  config.kernels = fastest_loc_kernels();
   config.model = table.choice("model", {"full", "paper"}, 0) == 1 ? LocModel::paper : LocModel::full;
   constexpr Landmarks kinds[] = {Landmarks::lines, Landmarks::goalposts, Landmarks::both};
   config.landmarks = kinds[table.choice("landmarks", {"lines", "goalposts", "both"}, 0)];

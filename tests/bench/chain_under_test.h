@@ -42,6 +42,7 @@ struct ChainUnderTest {
     require(Field::create(pool.field, field), "field");
     LocalizerConfig localizer_config;
     localizer_config.particles = particles;
+    localizer_config.kernels = fastest_loc_kernels();
     require(localizer.configure(localizer_config, field), "localizer");
     (void)localizer.reset(Prior{}, 1);
   }

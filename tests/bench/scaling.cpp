@@ -81,9 +81,10 @@ void time_localizer(benchmark::State& state, const FramePool& pool, int particle
   auto localizer = std::make_unique<Localizer>();
   LocalizerConfig config;
   config.particles = particles;
+  config.kernels = fastest_loc_kernels();
   require(localizer->configure(config, seen.field), "localizer");
   const Prior near{.kind = PriorKind::pose, .pose = seen.truth, .sigma_xy = 0.1F, .sigma_theta = radians(5.0F)};
-  (void)localizer->reset(tracking ? near : Prior{}, 1);
+  require(localizer->reset(tracking ? near : Prior{}, 1), "prior");
   LocalizerInput input;
   input.has_yaw = true;
   input.yaw = seen.truth.theta;

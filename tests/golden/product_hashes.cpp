@@ -134,7 +134,7 @@ std::uint64_t hash_posts(const Features& features) {
 std::uint64_t hash_line_points(const Features& features) {
   Hasher hasher;
   for (const LinePoint& p : features.line_points) {
-    hasher.add_all(p.pixel, p.ray, p.ground, p.direction, p.length, p.sigma);
+    hasher.add_all(p.pixel, p.ground, p.dir_x, p.dir_y, p.length, p.sigma);
   }
   return hasher.value();
 }

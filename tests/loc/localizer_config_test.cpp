@@ -53,7 +53,7 @@ constexpr Key keys[] = {
 // A new key needs its row above.
 static_assert(sizeof(MotionNoise) == 6 * sizeof(float) && sizeof(FeatureManagerConfig) == 9 * sizeof(float));
 static_assert(sizeof(AugmentedMclConfig) == 3 * sizeof(float));
-static_assert(sizeof(LocalizerConfig) == 2 * sizeof(int) + (6 + 9 + 3 + 6) * sizeof(float));
+static_assert(sizeof(LocalizerConfig) == 2 * sizeof(int) + (6 + 9 + 3 + 6) * sizeof(float) + sizeof(LocKernels));
 
 struct Robot {
   Field field = test::field_of("acyut-5x3");

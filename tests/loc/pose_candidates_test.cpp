@@ -30,7 +30,7 @@ struct Fixture {
   }
   void find(const Pose2& truth, const test::SyntheticOptions& options, const YawEvidence& yaw) {
     make_observation(view.look(truth, camera, options, rng), config, *observation);
-    find_candidates(field, *map, *observation, Landmarks::lines, yaw, candidates);
+    find_candidates(field, *map, *observation, config, yaw, candidates);
   }
   [[nodiscard]] int rank_of(const Pose2& truth) const {
     for (std::size_t i = 0; i < candidates.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "loc/localizer_config.h"
 #include "tests/support/synthetic_view.h"
 #include "tests/support/test_field.h"
 
@@ -23,7 +24,7 @@ struct Fixture {
     make_observation(view.look(truth, camera, options, rng), config, *observation);
   }
   Refinement refine(const Pose2& start, const RefinementPrior& prior = {}) const {
-    return refine_pose(field, observation->lines.span(), camera, start, prior);
+    return refine_pose(quarter_lines(field), observation->lines.view(), camera, start, prior, portable_loc_kernels());
   }
 };
 }  // namespace
@@ -59,8 +60,10 @@ TEST_CASE("a third of the points on no line at all does little harm") {
   const Pose2 truth{-1.2F, 0.4F, 0.2F};
   f.look(truth, {});
   for (std::size_t i = 0; i < f.observation->lines.size(); i += 3) {
-    LineSample& s = f.observation->lines[i];
-    s.ray = normalized({0.6F + 0.8F * f.rng.uniform(), f.rng.uniform(-0.7F, 0.7F), -0.5F});
+    LineSample s = f.observation->lines[i];
+    const float away = f.camera.height / 0.5F;
+    s.ground = {away * (0.6F + 0.8F * f.rng.uniform()), away * f.rng.uniform(-0.7F, 0.7F)};
+    f.observation->lines.set(i, s);
   }
   const Refinement r = f.refine({truth.x - 0.1F, truth.y - 0.1F, truth.theta - 0.05F});
   CHECK(math::hypot(r.pose.x - truth.x, r.pose.y - truth.y) < 0.02F);
@@ -81,8 +84,9 @@ TEST_CASE("a prior holds the pose along a lone line, and the covariance shows th
   options.max_range = 0.9F;
   f.look(truth, options);
   // Keep the touch line alone: points that lie across the view.
-  StaticVector<LineSample, max_line_samples> lone;
-  for (const LineSample& s : f.observation->lines) {
+  LineSamples<max_line_samples> lone;
+  for (std::size_t i = 0; i < f.observation->lines.size(); ++i) {
+    const LineSample s = f.observation->lines[i];
     if (math::abs(s.dir_y) > 0.9F && s.ground.x > 0.6F) lone.push_back(s);
   }
   REQUIRE(lone.size() > 10);
@@ -90,7 +94,7 @@ TEST_CASE("a prior holds the pose along a lone line, and the covariance shows th
   prior.has_pose = true;
   prior.pose = truth;
   prior.covariance = {0.01F, 0, 0.01F, 0, 0, 0.003F};
-  const Refinement r = refine_pose(f.field, lone.span(), f.camera, truth, prior);
+  const Refinement r = refine_pose(quarter_lines(f.field), lone.view(), f.camera, truth, prior, portable_loc_kernels());
   CHECK(r.covariance.xx > 5.0F * r.covariance.yy);
   CHECK(math::abs(r.pose.x) < 0.03F);
 }

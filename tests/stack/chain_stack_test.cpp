@@ -37,7 +37,7 @@ struct Chain {
   VisionResult vision;
   PoseEstimate estimate;
 
-  explicit Chain(const Kernels& kernels) {
+  Chain(const Kernels& kernels, const LocKernels& loc_kernels) {
     REQUIRE(Field::create(*field_preset("small-2026"), field) == Status::ok);
     LensParameters parameters;
     parameters.focal_px = 232.9F;
@@ -51,6 +51,7 @@ struct Chain {
     REQUIRE(pipeline.configure(config, lens) == Status::ok);
     LocalizerConfig loc;
     loc.landmarks = Landmarks::both;
+    loc.kernels = loc_kernels;
     REQUIRE(localizer.configure(loc, field) == Status::ok);
     (void)localizer.reset({}, 1);
     const GroundProjection projection(lens, camera);
@@ -104,8 +105,8 @@ std::size_t stack_of(Chain* chain) {
   return stack_bytes - untouched;
 }
 
-void check_stack(const Kernels& kernels) {
-  const auto chain = std::make_unique<Chain>(kernels);
+void check_stack(const Kernels& kernels, const LocKernels& loc_kernels) {
+  const auto chain = std::make_unique<Chain>(kernels, loc_kernels);
   const std::size_t empty = stack_of(nullptr);
   const std::size_t used = stack_of(chain.get());
   REQUIRE(chain->worst == Status::ok);
@@ -120,6 +121,7 @@ void check_stack(const Kernels& kernels) {
 }  // namespace
 
 TEST_CASE("the chain from frame to pose fits a stack of 32 KiB") {
-  check_stack(portable_kernels());
-  check_stack(fastest_kernels());
+  check_stack(portable_kernels(), portable_loc_kernels());
+  check_stack(word_kernels(), scalar_loc_kernels());
+  check_stack(fastest_kernels(), fastest_loc_kernels());
 }

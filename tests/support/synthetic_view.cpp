@@ -27,8 +27,9 @@ void SyntheticView::add_line_point(const GroundProjection& told, const GroundPoi
   if (ground.x * ground.x + ground.y * ground.y > options_.max_range * options_.max_range) return;
   LinePoint p;
   if (!see(ground, options_.pixel_noise, rng, p.pixel)) return;
-  if (!options_.lines || !told.ground(p.pixel, p.ground) || !told.robot_ray(p.pixel, p.ray)) return;
-  p.direction = direction;
+  if (!options_.lines || !told.ground(p.pixel, p.ground)) return;
+  p.dir_x = math::cos(direction);
+  p.dir_y = math::sin(direction);
   p.length = length;
   p.sigma = math::sqrt(told.ground_covariance(p.pixel, 2.0F, 0.0F).xx);
   memory_->features.line_points.push_back(p);

@@ -23,7 +23,8 @@ struct View {
     for (float t = from; t < to; t += 0.02F) {
       LinePoint p;
       p.ground = {start.x + t * math::cos(direction), start.y + t * math::sin(direction)};
-      p.direction = direction;
+      p.dir_x = math::cos(direction);
+      p.dir_y = math::sin(direction);
       p.sigma = px_m;
       features->line_points.push_back(p);
     }
