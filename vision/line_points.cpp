@@ -244,17 +244,22 @@ class PointFinder {
 
   /// The ground under the line's edges, `half` pixels to both sides; the middle of both, and its place in the picture.
   bool find_middle(const Vec2& at, const Vec2& normal, float half, LinePoint& point) const {
+    // By the lens itself: between the corners of the ray grid a millimetre would be lost.
     const GroundProjection& projection = input_.rays.projection();
-    Vec3 ray_a, ray_b;
     GroundPoint a, b;
-    if (!input_.rays.ray({at.u + half * normal.u, at.v + half * normal.v}, ray_a) ||
-        !input_.rays.ray({at.u - half * normal.u, at.v - half * normal.v}, ray_b) ||
-        !projection.intersect_ground(ray_a, a) || !projection.intersect_ground(ray_b, b)) {
+    if (!projection.ground(input_.rays.camera_pixel({at.u + half * normal.u, at.v + half * normal.v}), a) ||
+        !projection.ground(input_.rays.camera_pixel({at.u - half * normal.u, at.v - half * normal.v}), b)) {
       return false;
     }
     point.ground = {0.5F * (a.x + b.x), 0.5F * (a.y + b.y)};
-    // Each edge counts in the picture by its distance from the camera, which goes with the inverse of its ray's z.
-    const float t = half * (ray_b.z - ray_a.z) / (ray_a.z + ray_b.z);
+    // Each edge counts in the picture by its distance from the camera.
+    const CameraPose& pose = projection.pose();
+    const auto distance = [&pose](const GroundPoint& g) {
+      return math::sqrt(math::square(g.x - pose.x) + math::square(g.y - pose.y) + math::square(pose.height));
+    };
+    const float far_a = distance(a);
+    const float far_b = distance(b);
+    const float t = half * (far_a - far_b) / (far_a + far_b);
     point.pixel = input_.rays.camera_pixel({at.u + t * normal.u, at.v + t * normal.v});
     return true;
   }
