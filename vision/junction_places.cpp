@@ -12,10 +12,12 @@ constexpr float graph_sigma_px = 1.5F;  // working pixels: what thinning moves a
 constexpr float point_sigma_px = 0.5F;  // likewise, of a line point
 constexpr float gate_px = 2.5F;         // likewise, across the branch: farther off is another line
 constexpr float gate_widths = 0.75F;
-constexpr float begin_px = 1.5F;  // beyond the edge of the line across, where its blur ends
-constexpr float end_m = 0.6F;     // tilt and an uneven carpet bend what is farther away
+constexpr float begin_px = 1.5F;                    // beyond the edge of the line across, where its blur ends
+constexpr float short_m = 0.3F;                     // a branch without line points is searched this far, and
+constexpr int most_searched = 12;                   // so many working pixels
+constexpr float end_m = 0.6F;                       // tilt and an uneven carpet bend what is farther away
 constexpr float sin_same_direction = 0.258819045F;  // of 15 degrees
-constexpr float branch_sigma = radians(3.0F);  // of a branch's direction, as the search gave it
+constexpr float branch_sigma = radians(3.0F);       // of a branch's direction, as the search gave it
 
 /// A place's correction with its information matrix: the sum of what the branches say.
 struct Correction {
@@ -42,21 +44,48 @@ struct BranchFit {
   }
 };
 
-BranchFit fit_branch(const Junction& j, float direction, float line_width_m, std::span<const LinePoint> points) {
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
-  BranchFit fit;
-  for (const LinePoint& p : points) {
-    const float dx = p.ground.x - j.ground.x;
-    const float dy = p.ground.y - j.ground.y;
-    const float along = dx * out.x + dy * out.y;
-    const float across = dy * out.x - dx * out.y;
-    if (along < 0.5F * line_width_m + begin_px * p.sigma || along > end_m) continue;
-    if (math::abs(across) > math::max(gate_widths * line_width_m, gate_px * p.sigma)) continue;
-    if (math::abs(out.x * p.dir_y - out.y * p.dir_x) > sin_same_direction) continue;
-    fit.add(along, across, 1.0F / math::square(point_sigma_px * p.sigma));
+class BranchFitter {
+ public:
+  BranchFitter(const Junction& j, float direction, float line_width_m)
+      : at_(j.ground), out_{math::cos(direction), math::sin(direction)}, line_width_m_(line_width_m) {}
+
+  /// A point that may lie on the branch.
+  void offer(const LinePoint& p) {
+    const float dx = p.ground.x - at_.x;
+    const float dy = p.ground.y - at_.y;
+    const float along = dx * out_.x + dy * out_.y;
+    const float across = dy * out_.x - dx * out_.y;
+    if (along < 0.5F * line_width_m_ + begin_px * p.sigma || along > end_m) return;
+    if (math::abs(across) > math::max(gate_widths * line_width_m_, gate_px * p.sigma)) return;
+    if (math::abs(out_.x * p.dir_y - out_.y * p.dir_x) > sin_same_direction) return;
+    fit_.add(along, across, 1.0F / math::square(point_sigma_px * p.sigma));
   }
-  return fit;
-}
+
+  /// Looks for points by itself, a working pixel apart.
+  void search(const LinePointInput& input) {
+    WorkPoint begin, end;
+    const auto away = [this](float along) { return GroundPoint{at_.x + along * out_.x, at_.y + along * out_.y}; };
+    if (!input.rays.work_point(away(0.5F * line_width_m_), 0.0F, begin) ||
+        !input.rays.work_point(away(0.5F * line_width_m_ + short_m), 0.0F, end)) {
+      return;
+    }
+    const WorkPoint way{end.u - begin.u, end.v - begin.v};
+    const float length = math::hypot(way.u, way.v);
+    if (!(length > 0.0F)) return;
+    for (int k = 1; k <= most_searched && static_cast<float>(k) < length; ++k) {
+      const float share = static_cast<float>(k) / length;
+      LinePoint point;
+      if (find_line_point(input, {begin.u + share * way.u, begin.v + share * way.v}, way, point)) offer(point);
+    }
+  }
+
+  [[nodiscard]] const BranchFit& fit() const { return fit_; }
+
+ private:
+  GroundPoint at_, out_;  // the junction, and the unit direction of the branch
+  float line_width_m_;
+  BranchFit fit_;
+};
 
 /// What a branch says of the junction's place across itself.
 void add_branch(const BranchFit& fit, float direction, Correction& sum) {
@@ -69,17 +98,22 @@ void add_branch(const BranchFit& fit, float direction, Correction& sum) {
 
 }  // namespace
 
-void place_junctions(const GroundProjection& projection, const JunctionPlaceParameters& parameters,
-                     Features& features) {
+void place_junctions(const LinePointInput& input, Features& features) {
+  const GroundProjection& projection = input.rays.projection();
+  // The graph is known to a working pixel; the rest is in camera pixels.
+  const float camera_px_per_work_px = input.rays.camera_pixel({1.0F, 1.0F}).u;
   for (Junction& j : features.junctions) {
     if (j.type == JunctionType::x) continue;  // on the centre circle: two of its branches are no straight lines
-    const Sym2 prior = projection.ground_covariance(j.pixel, graph_sigma_px * parameters.camera_px_per_work_px, 0.0F);
+    const Sym2 prior = projection.ground_covariance(j.pixel, graph_sigma_px * camera_px_per_work_px, 0.0F);
     const float prior_det = prior.xx * prior.yy - prior.xy * prior.xy;
     if (!(prior_det > 0.0F)) continue;
     Correction sum{prior.yy / prior_det, -prior.xy / prior_det, prior.xx / prior_det};
     for (int i = 0; i < j.branches; ++i) {
       const float direction = j.direction[static_cast<std::size_t>(i)];
-      add_branch(fit_branch(j, direction, parameters.line_width_m, features.line_points.span()), direction, sum);
+      BranchFitter fitter(j, direction, input.line_width_m);
+      for (const LinePoint& p : features.line_points) fitter.offer(p);
+      if (!(fitter.fit().w > 0.0F)) fitter.search(input);
+      add_branch(fitter.fit(), direction, sum);
     }
     const float det = sum.xx * sum.yy - sum.xy * sum.xy;  // > 0: the prior's part is positive definite
     const GroundPoint at{j.ground.x + (sum.yy * sum.x - sum.xy * sum.y) / det,

@@ -5,18 +5,14 @@
 #pragma once
 
 #include "vision/features.h"
-#include "vision/lens/camera_pose.h"
+#include "vision/line_points.h"
 
 namespace touchline {
-
-struct JunctionPlaceParameters {
-  float line_width_m = 0.05F;
-  float camera_px_per_work_px = 1.0F;  // the graph is known to a working pixel, the rest is in camera pixels
-};
 
 /// Moves the places (`pixel`, `ground`, `covariance`) of the T's and L's of `features` to where the line points along
 /// their branches say. A junction without such points stays where it is, and so does an X, whose place comes from the
 /// fit of the centre circle; types, branches and confidences stay as they are.
-void place_junctions(const GroundProjection& projection, const JunctionPlaceParameters& parameters, Features& features);
+/// A branch that is too short for line points gets its own: the line's direction is known there.
+void place_junctions(const LinePointInput& input, Features& features);
 
 }  // namespace touchline

@@ -207,6 +207,11 @@ class PointFinder {
   bool find(GridPoint pixel, LinePoint& point, LinePointCounts& counts) const {
     Vec2 tangent;
     if (!direction_at(input_.skeleton, pixel, radius_, tangent)) return fail(counts.no_direction);
+    return find_along(pixel, tangent, point, counts);
+  }
+
+  /// The same with the line's direction given.
+  bool find_along(GridPoint pixel, const Vec2& tangent, LinePoint& point, LinePointCounts& counts) const {
     const Vec2 normal{-tangent.v, tangent.u};
     float edge_a = 0.0F;
     float edge_b = 0.0F;
@@ -306,6 +311,18 @@ class PointFinder {
 };
 
 }  // namespace
+
+bool find_line_point(const LinePointInput& input, const WorkPoint& at, const WorkPoint& direction, LinePoint& point) {
+  const float length = math::hypot(direction.u, direction.v);
+  const ConstBitView& mask = input.line_mask;
+  const bool inside =
+      at.u >= 0.0F && at.v >= 0.0F && at.u < static_cast<float>(mask.width) && at.v < static_cast<float>(mask.height);
+  if (!inside || !(length > 0.0F)) return false;
+  const GridPoint pixel{static_cast<std::int16_t>(at.u), static_cast<std::int16_t>(at.v)};
+  if (!mask.get(pixel.x, pixel.y)) return false;
+  LinePointCounts counts;
+  return PointFinder(input).find_along(pixel, {direction.u / length, direction.v / length}, point, counts);
+}
 
 LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,
                                  StaticVector<LinePoint, max_line_points>& points) {

@@ -30,6 +30,10 @@ struct LinePointCounts {
   int dropped = 0;  // no room
 };
 
+/// The point of the line through one pixel of the line mask, whose direction in the image (working pixels, any length)
+/// is known: where the skeleton is too short or too bent to tell. False when there is none.
+bool find_line_point(const LinePointInput& input, const WorkPoint& at, const WorkPoint& direction, LinePoint& point);
+
 /// Fills `points`, evenly spread over the skeleton's pixels. `scratch` has the skeleton's size.
 LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,
                                  StaticVector<LinePoint, max_line_points>& points);

@@ -274,8 +274,7 @@ void Pipeline::make_line_points(VisionResult& result) {
                              rays,          config_.line_width_m, config_.max_range_m};
   const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
   result.counts.dropped_line_points = counts.dropped;
-  const float camera_px = static_cast<float>(config_.frame_width) / static_cast<float>(views_.width);
-  place_junctions(result.projection, {config_.line_width_m, camera_px}, *memory_.features);
+  place_junctions(input, *memory_.features);
 }
 
 /// The larger of both directions.

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "tests/vision/painted_field.h"
+#include "tests/vision/line_picture.h"
 
 using namespace touchline;
 
@@ -15,6 +15,10 @@ namespace {
 constexpr float px_m = 0.01F;  // metres on the ground of a working pixel
 
 struct View {
+  View() : View(test::Scene{}) {}
+  explicit View(const test::Scene& scene) : picture(scene, test::usual_pose()) {}
+
+  test::LinePicture picture;
   GroundProjection projection{test::paper_lens(), test::usual_pose()};
   std::unique_ptr<Features> features = std::make_unique<Features>();
 
@@ -39,8 +43,8 @@ struct View {
       j.direction[static_cast<std::size_t>(i)] = wrap_angle(first + static_cast<float>(i) * math::half_pi);
     features->junctions.push_back(j);
   }
-  Junction placed() const {
-    place_junctions(projection, {0.05F, 2.35F}, *features);
+  Junction placed() {
+    place_junctions(picture.input(0.05F), *features);
     return features->junctions[0];
   }
 };
@@ -51,7 +55,7 @@ constexpr float turned = 0.4F;  // of the corner's first branch
 }  // namespace
 
 TEST_CASE("a corner moves to where the points on its lines cross, and its pixel moves along") {
-  const View view;
+  View view;
   view.add_points(corner, turned, 0.0F, 0.5F);
   view.add_points(corner, turned + math::half_pi, 0.0F, 0.5F);
   view.add_junction(JunctionType::l, {corner.x + 0.012F, corner.y - 0.015F}, turned, 2);
@@ -64,7 +68,7 @@ TEST_CASE("a corner moves to where the points on its lines cross, and its pixel 
 }
 
 TEST_CASE("points on one line move a junction across that line alone") {
-  const View view;
+  View view;
   view.add_points({1.0F, 0.0F}, 0.0F, 0.0F, 0.5F);  // straight ahead: what a pixel means there is no tilted ellipse
   view.add_junction(JunctionType::l, {1.012F, -0.015F}, 0.0F, 2);
   const Junction j = view.placed();
@@ -73,7 +77,7 @@ TEST_CASE("points on one line move a junction across that line alone") {
 }
 
 TEST_CASE("lines beside, lines across and lines far away say nothing of a junction") {
-  const View view;
+  View view;
   const GroundPoint beside{corner.x, corner.y + 0.08F};  // of a goal area of a small field; eight working pixels
   view.add_points(beside, 0.0F, 0.0F, 0.5F);
   view.add_points({corner.x + 0.2F, corner.y - 0.2F}, math::half_pi, 0.0F, 0.4F);  // crosses the first branch
@@ -84,15 +88,27 @@ TEST_CASE("lines beside, lines across and lines far away say nothing of a juncti
 }
 
 TEST_CASE("the bent skeleton beside the crossing itself has no say") {
-  const View view;
+  View view;
   view.add_points({corner.x, corner.y + 0.02F}, 0.0F, 0.0F, 0.04F);
   view.add_junction(JunctionType::l, corner, 0.0F, 2);
   CHECK(view.placed().ground.y == doctest::Approx(corner.y).epsilon(1e-5));
 }
 
 TEST_CASE("an X stays where the centre circle's fit has put it") {
-  const View view;
+  View view;
   view.add_points({corner.x, corner.y + 0.015F}, 0.0F, 0.0F, 0.5F);
   view.add_junction(JunctionType::x, corner, 0.0F, 4);
   CHECK(view.placed().ground.y == corner.y);
+}
+
+TEST_CASE("a branch too short for line points is found in the picture") {
+  test::Scene scene;
+  scene.stripes = {{corner, {1.5F, corner.y}, 0.05F, test::line_white},  // to the middle of the lines
+                   {{1.0F, corner.y - 0.025F}, {1.0F, corner.y + 0.12F}, 0.05F, test::line_white}};
+  View view(scene);
+  view.add_points(corner, 0.0F, 0.1F, 0.5F);  // of the first branch alone
+  view.add_junction(JunctionType::l, {corner.x + 0.015F, corner.y - 0.01F}, 0.0F, 2);
+  const Junction j = view.placed();
+  CHECK(math::abs(j.ground.x - corner.x) < 0.005F);
+  CHECK(math::abs(j.ground.y - corner.y) < 0.003F);
 }

@@ -4,51 +4,26 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <memory>
-#include <vector>
 
 #include "tests/support/ascii_image.h"
-#include "tests/vision/painted_field.h"
-#include "vision/image/bit_ops.h"
-#include "vision/image/thinning.h"
+#include "tests/vision/line_picture.h"
 
 using namespace touchline;
 using namespace touchline::test;
 
 namespace {
 
-constexpr int w = 320, h = 240;
-
 struct Found {
   StaticVector<LinePoint, max_line_points> points;
   LinePointCounts counts;
 };
 
-/// Line mask and skeleton straight from the picture: what is brighter than half way between carpet and white.
 std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float line_width) {
-  const GroundProjection projection(test::paper_lens(), pose);
-  WorkImage image = work_image(paint(scene, projection));
-  Bits mask(w, h);
-  for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) {
-      GroundPoint g;
-      const PixelPoint pixel{(static_cast<float>(x) + 0.5F) * 2.35F, (static_cast<float>(y) + 0.5F) * 2.0F};
-      if (!projection.ground(pixel, g) || math::hypot(g.x, g.y) > 3.0F) continue;
-      mask.view().set(x, y, image.y[static_cast<std::size_t>(y * w + x)] > 140);
-    }
-  }
-  Bits skeleton = mask;
-  std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(h))> scratch{};
-  thin(skeleton.view(), scratch);
+  LinePicture picture(scene, pose);
   auto found = std::make_unique<Found>();
-  Bits work(w, h);
-  std::vector<Vec3> corners(static_cast<std::size_t>(ray_columns(w) * ray_rows(h)));
-  const RayGridView grid{corners, ray_columns(w), ray_rows(h)};
-  make_ray_grid(test::paper_lens(), 752, 480, w, h, grid);
-  const WorkRays rays(projection, grid, 752, 480, w, h);
-  const LinePointInput input{image.view().y, skeleton.view(), mask.view(), rays, line_width, 6.0F};
-  found->counts = find_line_points(input, work.view(), found->points);
+  Bits work(LinePicture::w, LinePicture::h);
+  found->counts = find_line_points(picture.input(line_width), work.view(), found->points);
   return found;
 }
 
@@ -108,4 +83,30 @@ TEST_CASE("no skeleton, no points") {
   const auto found = find(Scene{}, usual_pose(), 0.10F);
   CHECK(found->points.empty());
   CHECK(found->counts.considered == 0);
+}
+
+TEST_CASE("with its direction given, a piece too short for the skeleton's axis has a point") {
+  Scene scene;
+  // A rung of a ladder, from one side 7 cm long.
+  scene.stripes = {{{0.6F, 0.0F}, {1.2F, 0.0F}, 0.05F, line_white},
+                   {{0.6F, 0.12F}, {1.2F, 0.12F}, 0.05F, line_white},
+                   {{0.9F, 0.0F}, {0.9F, 0.12F}, 0.05F, line_white}};
+  for (const LinePoint& p : find(scene, usual_pose(), 0.05F)->points) CHECK(math::abs(p.dir_x) > 0.9F);
+  LinePicture picture(scene, usual_pose());
+  const LinePointInput input = picture.input(0.05F);
+  WorkPoint at, ahead;
+  REQUIRE(input.rays.work_point({0.905F, 0.06F}, 0.0F, at));
+  REQUIRE(input.rays.work_point({0.905F, 0.08F}, 0.0F, ahead));
+  LinePoint point;
+  REQUIRE(find_line_point(input, at, {ahead.u - at.u, ahead.v - at.v}, point));
+  CHECK(math::abs(point.ground.x - 0.9F) < 0.004F);
+  CHECK(math::abs(point.dir_x) < 0.05F);
+  SUBCASE("across the line the width is wrong") {
+    CHECK_FALSE(find_line_point(input, at, {ahead.v - at.v, at.u - ahead.u}, point));
+  }
+  SUBCASE("beside the mask there is no line, and beyond the picture nothing at all") {
+    CHECK_FALSE(find_line_point(input, {at.u, at.v - 40.0F}, {1.0F, 0.0F}, point));
+    CHECK_FALSE(find_line_point(input, {-1.0F, 5.0F}, {1.0F, 0.0F}, point));
+    CHECK_FALSE(find_line_point(input, {5.0F, 1e12F}, {1.0F, 0.0F}, point));
+  }
 }
