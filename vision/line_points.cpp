@@ -2,13 +2,12 @@
 #include "vision/line_points.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "platform/core/elementary.h"
 #include "vision/graph.h"
 #include "vision/image/bit_ops.h"
+#include "vision/image/moments.h"
 
 namespace touchline {
 namespace {
@@ -21,69 +20,10 @@ struct Vec2 {
   float u = 0.0F, v = 0.0F;
 };
 
-/// Second moments of the skeleton's pixels around one of them.
-struct Moments {
-  std::int32_t n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-};
-/// A window of up to 32 columns of a mask; bits outside the image are zero. A word of 32 bits is what a register of a
-/// small processor takes.
-class BitWindow {
- public:
-  BitWindow(ConstBitView mask, int first, int n) : mask_(mask) {
-    const int from = std::max(first, 0);
-    left_ = from / 32 * 4;
-    right_ = from / 32 * 32 + 32 < mask.width ? left_ + 4 : left_;
-    inside_left_ = from < mask.width ? ~std::uint32_t{0} : 0;
-    inside_right_ = right_ != left_ && from % 32 != 0 ? ~std::uint32_t{0} : 0;
-    if (inside_left_ == 0) left_ = right_ = 0;
-    down_ = from % 32;
-    up_ = (32 - down_) % 32;
-    before_ = from - first;
-    window_ = ~std::uint32_t{0} >> (32 - n);
-  }
-  [[nodiscard]] std::uint32_t row(int y) const {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(mask_.row(y));
-    const std::uint32_t left = load(bytes + left_) & inside_left_;
-    const std::uint32_t right = load(bytes + right_) & inside_right_;
-    return ((left >> down_ | right << up_) << before_) & window_;
-  }
-
- private:
-  static std::uint32_t load(const unsigned char* from) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, from, sizeof word);
-    return word;
-  }
-  ConstBitView mask_;
-  int left_, right_;  // bytes
-  std::uint32_t inside_left_, inside_right_, window_;
-  int down_, up_, before_;
-};
-
-Moments moments_around(ConstBitView skeleton, GridPoint at, int radius) {
-  Moments m;
-  const BitWindow window(skeleton, at.x - radius, 2 * radius + 1);
-  for (int dy = std::max(-radius, -at.y); dy <= std::min(radius, skeleton.height - 1 - at.y); ++dy) {
-    std::int32_t n = 0, x = 0;
-    for (std::uint32_t left = window.row(at.y + dy); left != 0; left &= left - 1) {
-      const int dx = std::countr_zero(left) - radius;
-      ++n;
-      x += dx;
-      m.xx += dx * dx;
-    }
-    m.n += n;
-    m.x += x;
-    m.y += n * dy;
-    m.xy += x * dy;
-    m.yy += n * dy * dy;
-  }
-  return m;
-}
-
 /// Main axis of the skeleton's pixels within `radius`; false where they are few or no line: at ends, forks and bends,
 /// where the middle of the line means nothing. `most_across` bounds the variance across as a share of that along.
-bool main_axis(ConstBitView skeleton, GridPoint at, int radius, float most_across, Vec2& direction) {
-  const Moments m = moments_around(skeleton, at, radius);
+bool main_axis(const LinePointInput& input, GridPoint at, int radius, float most_across, Vec2& direction) {
+  const Moments m = moments_around(input.skeleton, at, radius, input.kernels);
   if (m.n < radius) return false;
   const float n = static_cast<float>(m.n);
   const float xx = static_cast<float>(m.n * m.xx - m.x * m.x) / (n * n);
@@ -101,14 +41,11 @@ bool main_axis(ConstBitView skeleton, GridPoint at, int radius, float most_acros
   return true;
 }
 
-/// Unit direction of the skeleton at a pixel, in working pixels. A short stretch says whether there is one; a longer
-/// one, where it is straight, halves the error, which perspective makes several times larger on the ground.
-bool direction_at(ConstBitView skeleton, GridPoint at, int radius, Vec2& direction) {
+/// Unit direction of the skeleton at a pixel, in working pixels. A long stretch, where it is straight, halves the
+/// error, which perspective makes several times larger on the ground; a short one does where lines bend or meet.
+bool direction_at(const LinePointInput& input, GridPoint at, int radius, Vec2& direction) {
   // Of the variance along, 10 px^2 for a radius of 5: a staircase has 0.1 px^2 across, a line three pixels beside 2.2.
-  if (!main_axis(skeleton, at, radius, 0.08F, direction)) return false;
-  Vec2 longer;
-  if (main_axis(skeleton, at, 2 * radius, 0.015F, longer)) direction = longer;
-  return true;
+  return main_axis(input, at, 2 * radius, 0.015F, direction) || main_axis(input, at, radius, 0.08F, direction);
 }
 
 /// The luma and the mask along a straight line, in steps of an eighth of a pixel from a pixel's centre. Fixed point,
@@ -206,7 +143,7 @@ class PointFinder {
   /// One skeleton pixel; counts the reason when there is no point.
   bool find(GridPoint pixel, LinePoint& point, LinePointCounts& counts) const {
     Vec2 tangent;
-    if (!direction_at(input_.skeleton, pixel, radius_, tangent)) return fail(counts.no_direction);
+    if (!direction_at(input_, pixel, radius_, tangent)) return fail(counts.no_direction);
     return find_along(pixel, tangent, point, counts);
   }
 

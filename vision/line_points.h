@@ -7,6 +7,7 @@
 #include "vision/features.h"
 #include "vision/image/bit_image.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 #include "vision/work_rays.h"
 
 namespace touchline {
@@ -18,6 +19,7 @@ struct LinePointInput {
   const WorkRays& rays;
   float line_width_m = 0.05F;
   float max_range_m = 6.0F;
+  Kernels kernels = portable_kernels();
 };
 
 /// Skeleton pixels that made no point, by reason.

@@ -270,8 +270,8 @@ void Pipeline::find_goal_posts(VisionResult& result) {
 void Pipeline::make_line_points(VisionResult& result) {
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
-  const LinePointInput input{result.mean.y, result.skeleton,      result.line_mask,
-                             rays,          config_.line_width_m, config_.max_range_m};
+  const LinePointInput input{result.mean.y,        result.skeleton,     result.line_mask, rays,
+                             config_.line_width_m, config_.max_range_m, config_.kernels};
   const LinePointCounts counts = find_line_points(input, views_.mask(MaskId::scratch), memory_.features->line_points);
   result.counts.dropped_line_points = counts.dropped;
   place_junctions(input, *memory_.features);

@@ -11,6 +11,7 @@
 #include "vision/image/colour_matrix.h"
 #include "vision/image/edge_rows.h"
 #include "vision/image/luma_bands.h"
+#include "vision/image/moments.h"
 #include "vision/image/ridge_block.h"
 
 namespace touchline {
@@ -38,7 +39,8 @@ struct Kernels {
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
   CarpetKernels carpet;
-  EdgeKernels edges;  // none: not offered
+  EdgeKernels edges;                                                               // none: not offered
+  void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered
 };
 
 /// For every processor.

@@ -11,13 +11,28 @@ namespace touchline {
 
 Kernels portable_kernels() {
   if constexpr (!vector_registers) return word_kernels();
-  return {"portable",        nullptr,           ridge::find_ridges,  bands::hsv_rows,
-          bands::white_rows, carpet::kernels(), edge_rows::kernels()};
+  return {
+      .name = "portable",
+      .halve_rows = nullptr,
+      .find_ridges = ridge::find_ridges,
+      .hsv_rows = bands::hsv_rows,
+      .white_rows = bands::white_rows,
+      .carpet = carpet::kernels(),
+      .edges = edge_rows::kernels(),
+      .window_moments = nullptr,
+  };
 }
 Kernels word_kernels() {
   return {
-      "words", nullptr, ridge_words::find_ridges, band_words::hsv_rows, band_words::white_rows, carpet_words::kernels(),
-      {}};
+      .name = "words",
+      .halve_rows = nullptr,
+      .find_ridges = ridge_words::find_ridges,
+      .hsv_rows = band_words::hsv_rows,
+      .white_rows = band_words::white_rows,
+      .carpet = carpet_words::kernels(),
+      .edges = {},
+      .window_moments = nullptr,
+  };
 }
 
 LumaBand portable_band(const HsvBandPlan& plan, std::uint8_t cb, std::uint8_t cr) {

@@ -12,6 +12,7 @@
 
 #include "platform/core/rng.h"
 #include "platform/processor/fastest_kernels.h"
+#include "tests/support/ascii_image.h"
 #include "vision/image/frame_fifo.h"
 #include "vision/image/hsv.h"
 #include "vision/image/subsample.h"
@@ -71,6 +72,37 @@ TEST_CASE("kernels subsample as the portable code does") {
       CAPTURE(s.work_width);
       CHECK(subsampled(frame, s.work_width, s.work_height, kernels) ==
             subsampled(frame, s.work_width, s.work_height, portable_kernels()));
+    }
+  }
+}
+
+TEST_CASE("moments of a window are those of its pixels, one by one") {
+  constexpr int width = 130, height = 40;
+  for (const Kernels& kernels : {portable_kernels(), fastest_kernels()}) {
+    for (const int radius : {3, 5, 7, 10, 14}) {
+      Rng rng(7);
+      test::Bits mask(width, height);
+      for (int i = 0; i < width * height / 4; ++i) {
+        mask.view().set(static_cast<int>(rng.below(width)), static_cast<int>(rng.below(height)), true);
+      }
+      for (int i = 0; i < 300; ++i) {
+        const int cx = static_cast<int>(rng.below(width));
+        const int cy = static_cast<int>(rng.below(height));
+        Moments want;
+        for (int y = std::max(cy - radius, 0); y <= std::min(cy + radius, height - 1); ++y) {
+          for (int x = std::max(cx - radius, 0); x <= std::min(cx + radius, width - 1); ++x) {
+            if (!mask.view().get(x, y)) continue;
+            const int dx = x - cx, dy = y - cy;
+            want = {want.n + 1, want.x + dx, want.y + dy, want.xx + dx * dx, want.xy + dx * dy, want.yy + dy * dy};
+          }
+        }
+        const GridPoint at{static_cast<std::int16_t>(cx), static_cast<std::int16_t>(cy)};
+        CAPTURE(kernels.name);
+        CAPTURE(radius);
+        CAPTURE(cx);
+        CAPTURE(cy);
+        REQUIRE(moments_around(mask.view(), at, radius, kernels) == want);
+      }
     }
   }
 }
