@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/ground_mask.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "platform/core/elementary.h"
 #include "vision/image/bit_ops.h"
@@ -14,46 +16,66 @@ namespace {
 constexpr float steepness_scale = 16384.0F;  // 2^14: a sine fits int16 with room
 constexpr std::int32_t no_ray = -32768;
 
-using CornerRow = std::array<std::int32_t, static_cast<std::size_t>(ray_columns(max_mask_width))>;
+using CornerRow = std::array<std::int32_t, RayRow::capacity>;
 
 /// How steeply the rays of one grid row look down: minus the sine of their elevation, in 2^-14.
 void steepness_of_row(const RayGridView& grid, int row, const Vec3& up, CornerRow& out) {
-  for (int i = 0; i < grid.columns; ++i) {
-    const Vec3& ray = grid.at(i, row);
-    const bool any = dot(ray, ray) > 0.0F;
-    out[static_cast<std::size_t>(i)] = any ? static_cast<std::int32_t>(-dot(ray, up) * steepness_scale) : no_ray;
+  RayRow rays;
+  read_row(grid, row, rays);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (std::size_t i = 0; i < columns; ++i) {
+    const float x = rays.x[i];
+    const float y = rays.y[i];
+    const float z = rays.z[i];
+    const std::int32_t any = x * x + y * y + z * z > 0.0F ? -1 : 0;
+    const auto steepness = static_cast<std::int32_t>(-(x * up.x + y * up.y + z * up.z) * steepness_scale);
+    out[i] = (steepness & any) | (no_ray & ~any);
   }
 }
 
-/// The cell right of corner `i`, a byte for each of its rows.
-using CellRows = std::array<std::uint8_t, ray_cell_px>;
-static_assert(ray_cell_px == 8);
+/// A row of cells.
+struct Cells {
+  static constexpr std::size_t capacity = static_cast<std::size_t>(words_for(max_mask_width)) * sizeof(BitWord);
+  std::array<std::uint8_t, capacity> whole;                 // 255: steep at all corners; as a row of the mask, too
+  std::array<std::uint8_t, RayRow::capacity> border{};  // not 0: steep at some, and a ray at each
+};
 
-CellRows cell_rows(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit) {
-  CellRows rows{};
-  const std::int32_t corner[4] = {above[i], above[i + 1], below[i], below[i + 1]};
-  int steep = 0;
-  for (const std::int32_t c : corner) {
-    if (c == no_ray) return rows;  // well outside the image circle
-    steep += c > limit ? 1 : 0;
+// By value: of references the compiler makes no vectors.
+std::int32_t least(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
+std::int32_t most(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+
+void classify(const CornerRow& above, const CornerRow& below, std::size_t cells, std::int32_t limit, Cells& out) {
+  for (std::size_t i = 0; i < cells; ++i) {
+    const std::int32_t lower_end = least(least(above[i], above[i + 1]), least(below[i], below[i + 1]));
+    const std::int32_t upper_end = most(most(above[i], above[i + 1]), most(below[i], below[i + 1]));
+    const std::int32_t whole = lower_end > limit ? 255 : 0;
+    const std::int32_t some = upper_end > limit ? 255 : 0;
+    const std::int32_t rays = lower_end > no_ray ? 255 : 0;
+    out.whole[i] = static_cast<std::uint8_t>(whole);
+    out.border[i] = static_cast<std::uint8_t>(some & rays & ~whole);
   }
-  if (steep == 0) return rows;
-  if (steep == 4) {
-    rows.fill(0xFF);
-    return rows;
+}
+
+/// The cell right of corner `i`, a byte for each of its rows: by how much its pixels are steeper than the limit changes
+/// by the same amount from row to row.
+void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit,
+                 std::uint8_t* bytes, std::ptrdiff_t stride, int rows) {
+  constexpr int half_px = 2 * ray_cell_px;  // a cell has 16 half pixels; the first centre is at the first
+  const std::int32_t left = above[i] * (half_px - 1) + below[i];
+  const std::int32_t right = above[i + 1] * (half_px - 1) + below[i + 1];
+  std::int32_t excess[ray_cell_px];
+  std::int32_t step[ray_cell_px];
+  for (int k = 0; k < ray_cell_px; ++k) {
+    const std::int32_t across = 2 * k + 1;
+    excess[k] = left * (half_px - across) + right * across - limit * (half_px * half_px);
+    step[k] = 2 * ((below[i] - above[i]) * (half_px - across) + (below[i + 1] - above[i + 1]) * across);
   }
-  for (int y = 0; y < ray_cell_px; ++y) {
-    const std::int32_t down = 2 * y + 1;  // in half pixels, of 16
-    const std::int32_t left = corner[0] * (16 - down) + corner[2] * down;
-    const std::int32_t right = corner[1] * (16 - down) + corner[3] * down;
-    unsigned bits = 0;
-    for (int k = 0; k < ray_cell_px; ++k) {
-      const std::int32_t across = 2 * k + 1;
-      if (left * (16 - across) + right * across > limit * 256) bits |= 1U << k;
-    }
-    rows[static_cast<std::size_t>(y)] = static_cast<std::uint8_t>(bits);
+  for (int y = 0; y < rows; ++y) {
+    std::int32_t bits = 0;
+    for (int k = 0; k < ray_cell_px; ++k) bits += excess[k] > 0 ? 1 << k : 0;
+    for (int k = 0; k < ray_cell_px; ++k) excess[k] += step[k];
+    bytes[y * stride] = static_cast<std::uint8_t>(bits);
   }
-  return rows;
 }
 
 }  // namespace
@@ -63,19 +85,24 @@ void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max
   const Mat3 rotation = robot_from_camera(pose);
   const Vec3 up{rotation.m[2][0], rotation.m[2][1], rotation.m[2][2]};
   const auto limit = static_cast<std::int32_t>(pose.height / math::hypot(pose.height, max_range_m) * steepness_scale);
-  CornerRow above{};
-  CornerRow below{};
-  steepness_of_row(grid, 0, up, below);
-  clear(ground);
+  const auto cells = static_cast<std::size_t>(grid.columns - 1);
+  const auto words = static_cast<std::size_t>(words_for(ground.width));
+  std::array<CornerRow, 2> corners;
+  Cells row;
+  row.whole.fill(0);
+  steepness_of_row(grid, 0, up, corners[0]);
   for (int y0 = 0; y0 < ground.height; y0 += ray_cell_px) {
-    above = below;
-    steepness_of_row(grid, y0 / ray_cell_px + 1, up, below);
-    const int rows = std::min(ray_cell_px, ground.height - y0);
-    for (int i = 0; i + 1 < grid.columns; ++i) {
-      const CellRows cell = cell_rows(above, below, static_cast<std::size_t>(i), limit);
-      for (int y = 0; y < rows; ++y) {
-        reinterpret_cast<unsigned char*>(ground.row(y0 + y))[i] = cell[static_cast<std::size_t>(y)];
-      }
+    const int j = y0 / ray_cell_px;
+    const CornerRow& above = corners[static_cast<std::size_t>(j % 2)];
+    CornerRow& below = corners[static_cast<std::size_t>((j + 1) % 2)];
+    steepness_of_row(grid, j + 1, up, below);
+    classify(above, below, cells, limit, row);
+    const int end = std::min(y0 + ray_cell_px, ground.height);
+    for (int y = y0; y < end; ++y) std::memcpy(ground.row(y), row.whole.data(), words * sizeof(BitWord));
+    for (std::size_t i = 0; i < cells; ++i) {
+      if (row.border[i] == 0) continue;
+      draw_border(above, below, i, limit, reinterpret_cast<std::uint8_t*>(ground.row(y0)) + i,
+                  ground.stride * std::ptrdiff_t{sizeof(BitWord)}, end - y0);
     }
   }
   and_with(ground, seen);

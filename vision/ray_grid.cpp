@@ -35,6 +35,16 @@ void clear_polygon(const MaskPolygon& polygon, float scale_u, float scale_v, Bit
 
 }  // namespace
 
+void read_row(const RayGridView& grid, int row, RayRow& out) {
+  const Vec3* rays = &grid.at(0, row);
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (std::size_t i = 0; i < columns; ++i) {
+    out.x[i] = rays[i].x;
+    out.y[i] = rays[i].y;
+    out.z[i] = rays[i].z;
+  }
+}
+
 void make_ray_grid(const Lens& lens, int frame_width, int frame_height, int work_width, int work_height,
                    RayGridView grid) {
   assert(grid.columns == ray_columns(work_width) && grid.rows == ray_rows(work_height));

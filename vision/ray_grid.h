@@ -4,10 +4,13 @@
 // working pixel).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "platform/core/geometry.h"
 #include "vision/image/bit_image.h"
+#include "vision/image/morphology.h"
 #include "vision/lens/lens.h"
 #include "vision/vision_config.h"
 
@@ -27,6 +30,13 @@ struct RayGridView {
     return rays[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
   }
 };
+
+/// One row of the grid, a component after the other: for loops over its columns that vectorise.
+struct RayRow {
+  static constexpr std::size_t capacity = static_cast<std::size_t>(ray_columns(max_mask_width));
+  std::array<float, capacity> x, y, z;
+};
+void read_row(const RayGridView& grid, int row, RayRow& out);
 
 /// Fills the grid. Corners a little outside the image circle get a ray too where the lens's formula allows it, so that
 /// blocks on the circle can be interpolated.
