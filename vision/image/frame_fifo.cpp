@@ -34,17 +34,23 @@ void mean_row(const Rows& rows, int frames, int width, std::uint8_t* out) {
   }
 }
 
-void mean_plane(std::span<const Yuv420View> frames, Plane plane, const ImageView<std::uint8_t>& out) {
+void mean_plane(std::span<const Yuv420View> frames, Plane plane, const MeanOfFour& mean_of_four,
+                const ImageView<std::uint8_t>& out) {
   for (int y = 0; y < out.height; ++y) {
     Rows rows{};
     for (std::size_t i = 0; i < frames.size(); ++i) rows[i] = (frames[i].*plane).row(y);
-    mean_row(rows, static_cast<int>(frames.size()), out.width, out.row(y));
+    if (frames.size() == 4 && mean_of_four != nullptr) {
+      mean_of_four(rows.data(), out.width, out.row(y));
+    } else {
+      mean_row(rows, static_cast<int>(frames.size()), out.width, out.row(y));
+    }
   }
 }
 
 }  // namespace
 
-FrameFifo::FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean) : depth_(slots.size()), mean_(mean) {
+FrameFifo::FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean, const Kernels& kernels)
+    : depth_(slots.size()), mean_(mean), mean_of_four_(kernels.mean_of_four) {
   assert(!slots.empty() && slots.size() <= slots_.size());
   std::copy(slots.begin(), slots.end(), slots_.begin());
 }
@@ -72,9 +78,9 @@ ConstYuv420View FrameFifo::mean_of_still(std::span<const bool> still) {
   frames_in_mean_ = static_cast<int>(count);
   if (count == 1) return frames[0];
   const std::span<const Yuv420View> used = std::span<const Yuv420View>(frames).first(count);
-  mean_plane(used, &Yuv420View::y, mean_.y);
-  mean_plane(used, &Yuv420View::cb, mean_.cb);
-  mean_plane(used, &Yuv420View::cr, mean_.cr);
+  mean_plane(used, &Yuv420View::y, mean_of_four_, mean_.y);
+  mean_plane(used, &Yuv420View::cb, mean_of_four_, mean_.cb);
+  mean_plane(used, &Yuv420View::cr, mean_of_four_, mean_.cr);
   return mean_;
 }
 

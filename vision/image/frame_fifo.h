@@ -7,6 +7,7 @@
 #include <span>
 
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 
 namespace touchline {
 
@@ -31,7 +32,7 @@ class FrameFifo {
   FrameFifo() = default;
   /// `slots`: 1 to max_fifo_depth images of one size. `mean` is of the same size; with one slot it is never touched and
   /// may be empty.
-  FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean);
+  FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean, const Kernels& kernels = portable_kernels());
 
   /// The slot of the oldest frame (or of none yet): write the new frame there.
   [[nodiscard]] Yuv420View next_slot() const { return slots_[static_cast<std::size_t>(next_)]; }
@@ -55,6 +56,7 @@ class FrameFifo {
   std::array<Yuv420View, max_fifo_depth> slots_{};
   std::size_t depth_ = 0;
   Yuv420View mean_;
+  MeanOfFour mean_of_four_ = nullptr;
   int next_ = 0;
   int size_ = 0;
   int frames_in_mean_ = 0;

@@ -32,9 +32,13 @@ struct HalvedRows {
   std::uint8_t* cr = nullptr;
 };
 
+/// out = (a + b + c + d + 2) / 4 of four rows of samples.
+using MeanOfFour = void (*)(const std::uint8_t* const* rows, int width, std::uint8_t* out);
+
 struct Kernels {
   const char* name = nullptr;
   void (*halve_rows)(const HalvedRows& rows) = nullptr;  // null: not offered
+  MeanOfFour mean_of_four = nullptr;                     // null: not offered
   void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;

@@ -9,6 +9,7 @@
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/luma_bands_loops.h"
+#include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
 
 namespace touchline {
@@ -236,6 +237,7 @@ Kernels avx2_kernels() {
   return {
       .name = "avx2",
       .halve_rows = halve_rows,
+      .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands::hsv_rows,
       .white_rows = bands::white_rows,

@@ -4,6 +4,7 @@
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/kernels.h"
 #include "vision/image/luma_bands_words.h"
+#include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_words.h"
 #include "vision/image/vector_registers.h"
 
@@ -14,6 +15,7 @@ Kernels portable_kernels() {
   return {
       .name = "portable",
       .halve_rows = nullptr,
+      .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands::hsv_rows,
       .white_rows = bands::white_rows,
@@ -26,6 +28,7 @@ Kernels word_kernels() {
   return {
       .name = "words",
       .halve_rows = nullptr,
+      .mean_of_four = nullptr,
       .find_ridges = ridge_words::find_ridges,
       .hsv_rows = band_words::hsv_rows,
       .white_rows = band_words::white_rows,

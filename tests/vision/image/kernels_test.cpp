@@ -283,5 +283,26 @@ TEST_CASE("the carpet's colours are counted as their definition says, with every
   }
 }
 
+TEST_CASE("the mean of four rows is rounded once, with every table of kernels that has it") {
+  for (const int width : {1, 31, 160, 333}) {
+    const auto samples = static_cast<std::size_t>(width);
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      auto four = noise(4 * samples, seed);
+      for (std::size_t i = 0; i < samples; i += 3) {  // neighbouring values, where rounding matters
+        for (std::size_t k = 1; k < 4; ++k) four[k * samples + i] = static_cast<std::uint8_t>(four[i] ^ (seed + k) % 4);
+      }
+      const std::uint8_t* const rows[4] = {four.data(), &four[samples], &four[2 * samples], &four[3 * samples]};
+      for (const Kernels& kernels : {portable_kernels(), fastest_kernels()}) {
+        if (kernels.mean_of_four == nullptr) continue;
+        std::vector<std::uint8_t> mean(samples);
+        kernels.mean_of_four(rows, width, mean.data());
+        for (std::size_t i = 0; i < samples; ++i) {
+          REQUIRE(mean[i] == (rows[0][i] + rows[1][i] + rows[2][i] + rows[3][i] + 2) / 4);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchline
