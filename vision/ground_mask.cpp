@@ -36,7 +36,7 @@ void steepness_of_row(const RayGridView& grid, int row, const Vec3& up, CornerRo
 /// A row of cells.
 struct Cells {
   static constexpr std::size_t capacity = static_cast<std::size_t>(words_for(max_mask_width)) * sizeof(BitWord);
-  std::array<std::uint8_t, capacity> whole;                 // 255: steep at all corners; as a row of the mask, too
+  std::array<std::uint8_t, capacity> whole;             // 255: steep at all corners; as a row of the mask, too
   std::array<std::uint8_t, RayRow::capacity> border{};  // not 0: steep at some, and a ray at each
 };
 
@@ -58,8 +58,8 @@ void classify(const CornerRow& above, const CornerRow& below, std::size_t cells,
 
 /// The cell right of corner `i`, a byte for each of its rows: by how much its pixels are steeper than the limit changes
 /// by the same amount from row to row.
-void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit,
-                 std::uint8_t* bytes, std::ptrdiff_t stride, int rows) {
+void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit, std::uint8_t* bytes,
+                 std::ptrdiff_t stride, int rows) {
   constexpr int half_px = 2 * ray_cell_px;  // a cell has 16 half pixels; the first centre is at the first
   const std::int32_t left = above[i] * (half_px - 1) + below[i];
   const std::int32_t right = above[i + 1] * (half_px - 1) + below[i + 1];

@@ -24,8 +24,8 @@ struct Component {
   Component(const std::array<float, RayRow::capacity>& above, const std::array<float, RayRow::capacity>& below,
             std::size_t i)
       : a(above[i]), b(above[i + 1]), c(below[i]), d(below[i + 1]) {}
-  [[nodiscard]] float centre() const { return a + b + c + d; }           // 4 times
-  [[nodiscard]] float along_row() const { return b - a - c + d; }        // 16 times the step
+  [[nodiscard]] float centre() const { return a + b + c + d; }          // 4 times
+  [[nodiscard]] float along_row() const { return b - a - c + d; }       // 16 times the step
   [[nodiscard]] float along_column() const { return c - (a + b) + d; }  // likewise
 };
 

@@ -8,8 +8,6 @@
 #include "vision/digestion.h"
 #include "vision/ground_mask.h"
 #include "vision/image/bit_ops.h"
-#include "vision/image/contour.h"
-#include "vision/image/grow.h"
 #include "vision/image/hsv.h"
 #include "vision/image/hull.h"
 #include "vision/image/morphology.h"
@@ -57,7 +55,7 @@ Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const c
   config_ = config;
   lens_ = lens;
   views_ = views;
-  fifo_ = FrameFifo({views_.slots.data(), static_cast<std::size_t>(config.fifo_depth)}, views_.mean);
+  fifo_ = FrameFifo({views_.slots.data(), static_cast<std::size_t>(config.fifo_depth)}, views_.mean, config.kernels);
   make_ray_grid(lens, config.frame_width, config.frame_height, config.work_width, config.work_height, views_.rays);
   make_seen_mask(lens, config.frame_width, config.frame_height, config.body_mask.span(), views_.mask(MaskId::seen));
   configured_ = true;
@@ -143,18 +141,15 @@ void Pipeline::find_green_stage(VisionResult& result) {
 void Pipeline::find_roi(VisionResult& result) {
   const BitView& field = views_.mask(MaskId::field);
   const BitView& roi = views_.mask(MaskId::roi);
-  clear(field);
   clear(roi);
   const BlobCount blobs = find_blobs(result.green, memory_.blob_search, memory_.blobs);
   result.counts.dropped_blobs = blobs.dropped;
-  const int largest = largest_blob(memory_.blobs.first(static_cast<std::size_t>(blobs.found)));
-  if (largest >= 0) {
-    const GridPoint first = memory_.blobs[static_cast<std::size_t>(largest)].first;
-    field.set(first.x, first.y, true);
-    grow_inside(field, result.green);
-    const Contour contour = trace_contour(field, first, memory_.contour);
-    result.contour = memory_.contour.first(static_cast<std::size_t>(contour.points));
-    result.counts.dropped_contour_points = contour.dropped;
+  const std::span<const Blob> found = memory_.blobs.first(static_cast<std::size_t>(blobs.found));
+  const int largest = largest_blob(found);
+  if (largest < 0) {
+    clear(field);
+  } else {
+    cut_out(result.green, found, static_cast<std::size_t>(largest), blobs.dropped == 0, field, roi);
     const int corners = hull_of_mask(field, memory_.hull_scratch, memory_.hull);
     result.hull = memory_.hull.first(static_cast<std::size_t>(corners));
     fill_hull(roi, result.hull);

