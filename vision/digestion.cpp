@@ -1,124 +1,298 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/digestion.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <cstring>
+#include <type_traits>
+
 #include "vision/image/bit_ops.h"
+#include "vision/image/neighbour_words.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 namespace {
 
-constexpr int tile_px = 8;  // 8x8 pixels are one word
+constexpr int strip_px = 16;           // columns of a strip: a row of it is a number of 16 bits
+constexpr int max_masked_radius = 31;  // the masks of larger discs would take too much of the stack
 
-/// The live nodes, as bits in tiles.
+/// Some rows of a strip at once, as many as a register takes.
+using Rows = std::conditional_t<vector_registers, std::uint64_t, std::uint32_t>;
+constexpr int rows_at_once = static_cast<int>(sizeof(Rows)) / 2;
+constexpr Rows in_every_row = static_cast<Rows>(0x0001000100010001U);
+
+Rows load_rows(const std::uint16_t* from) {
+  Rows rows = 0;
+  std::memcpy(&rows, from, sizeof rows);
+  return rows;
+}
+void store_rows(std::uint16_t* to, Rows rows) { std::memcpy(to, &rows, sizeof rows); }
+
+/// The disc as bits, from its left column on: a strip for every sixteen columns, with zeros above and below.
+class DiscMasks {
+ public:
+  explicit DiscMasks(int radius) : radius_(radius), rows_(4 * radius + 2 * strip_margin) {
+    if (!usable()) return;
+    for (int i = 0; i < (2 * radius / strip_px + 1) * rows_; ++i) bits_[static_cast<std::size_t>(i)] = 0;
+    for (int dy = -radius; dy <= radius; ++dy) {
+      int half = 0;
+      while ((half + 1) * (half + 1) + dy * dy <= radius * radius) ++half;
+      BitWord row = ((BitWord{2} << (2 * half)) - 1) << (radius - half);
+      for (int c = 0; c <= 2 * radius; c += strip_px, row >>= strip_px)
+        *at(c, dy + radius) = static_cast<std::uint16_t>(row);
+    }
+  }
+  [[nodiscard]] bool usable() const { return radius_ <= max_masked_radius; }
+  /// From column `column`, a multiple of 16, and row `row` of the disc on. The row may lie above or below the disc.
+  [[nodiscard]] const std::uint16_t* strip(int column, int row) const {
+    return &bits_[static_cast<std::size_t>(column / strip_px * rows_ + radius_ + strip_margin + row)];
+  }
+
+ private:
+  static constexpr int strip_margin = rows_at_once;
+  [[nodiscard]] std::uint16_t* at(int column, int row) {
+    return &bits_[static_cast<std::size_t>(column / strip_px * rows_ + radius_ + strip_margin + row)];
+  }
+
+  int radius_;
+  int rows_;  // of a strip: the disc's, and what a window at the upper or lower edge of the image lies beside it
+  std::array<std::uint16_t, static_cast<std::size_t>((2 * max_masked_radius / strip_px + 1) *
+                                                     (4 * max_masked_radius + 2 * strip_margin))>
+      bits_;
+};
+
+/// Sixteen columns of the live nodes from any column on, which lie in two strips.
+struct Window {
+  std::uint16_t* left;
+  std::uint16_t* right;
+  unsigned shift;  // the window's first column in the left strip
+  int x, y;        // of its first bit
+
+  [[nodiscard]] Rows from_left() const { return in_every_row * (0xFFFFU >> shift); }
+  [[nodiscard]] Rows load(int row) const {
+    const Rows in_left = load_rows(left + row) >> shift;
+    const Rows in_right = right_part(load_rows(right + row));
+    return (in_left & from_left()) | (in_right & ~from_left());
+  }
+  void remove(int row, Rows nodes) const {
+    store_rows(left + row, load_rows(left + row) & ~((nodes & from_left()) << shift));
+    store_rows(right + row, load_rows(right + row) & ~back_right(nodes & ~from_left()));
+  }
+  void add(int row, Rows nodes) const {
+    store_rows(left + row, load_rows(left + row) | (nodes & from_left()) << shift);
+    store_rows(right + row, load_rows(right + row) | back_right(nodes & ~from_left()));
+  }
+
+ private:
+  [[nodiscard]] Rows right_part(Rows rows) const { return rows << (strip_px - 1U - shift) << 1U; }
+  [[nodiscard]] Rows back_right(Rows rows) const { return rows >> (strip_px - 1U - shift) >> 1U; }
+};
+
+/// The live nodes of a disc inside a window: its words that hold any.
+struct Guests {
+  static constexpr std::size_t most = (2 * max_masked_radius + rows_at_once) / rows_at_once;
+  Window window;
+  std::size_t words;
+  std::array<Rows, most> inside;
+  std::array<int, most> row;  // in the window
+};
+static_assert(std::is_trivially_default_constructible_v<Guests>, "made for every pixel");
+
+/// The live nodes as bits, in strips of sixteen columns. The first strip stays empty: it is what lies left and right of
+/// the image.
 class LiveNodes {
  public:
-  LiveNodes(const DigestionMemory& memory, int width, int height)
-      : tiles_(memory.tiles),
-        rows_(memory.tile_rows),
-        tiles_a_row_((width + tile_px - 1) / tile_px),
-        tile_rows_((height + tile_px - 1) / tile_px),
-        words_a_row_(words_for(tiles_a_row_)) {
-    const auto tiles = static_cast<std::size_t>(tiles_a_row_) * static_cast<std::size_t>(tile_rows_);
-    const auto words = static_cast<std::size_t>(words_a_row_) * static_cast<std::size_t>(tile_rows_);
-    assert(tiles_.size() >= tiles && rows_.size() >= words);
-    for (std::size_t i = 0; i < tiles; ++i) tiles_[i] = 0;
-    for (std::size_t i = 0; i < words; ++i) rows_[i] = 0;
+  LiveNodes(std::span<std::uint16_t> memory, int width, int height, int radius)
+      : bits_(memory.data()),
+        strips_((width + strip_px - 1) / strip_px),
+        rows_(rows_of_strip(height)),
+        radius_(radius),
+        height_(std::min((2 * radius + rows_at_once) / rows_at_once * rows_at_once, rows_)),
+        masks_(radius) {
+    const std::size_t size = live_node_rows(width, height);
+    assert(memory.size() >= size);
+    for (std::size_t i = 0; i < size; ++i) memory[i] = 0;
   }
 
-  void add(GridPoint p) {
-    tile(p.x / tile_px, p.y / tile_px) |= bit(p);
-    row_word(p) |= row_bit(p);
-  }
-  void remove(GridPoint p) {
-    BitWord& t = tile(p.x / tile_px, p.y / tile_px);
-    t &= ~bit(p);
-    if (t == 0) row_word(p) &= ~row_bit(p);
+  /// Word i of row y of a mask.
+  void set_row(int i, int y, BitWord nodes) {
+    constexpr int strips_a_word = bits_per_word / strip_px;
+    for (int k = i * strips_a_word; k < std::min((i + 1) * strips_a_word, strips_); ++k, nodes >>= strip_px) {
+      strip(k)[y] = static_cast<std::uint16_t>(nodes);
+    }
   }
 
-  /// Calls visit(x, y) for every live node within `radius` of `centre`. visit may remove the node it is called with.
+  /// Whether a disc is never wider than a window.
+  [[nodiscard]] bool has_one_window() const { return 2 * radius_ < strip_px; }
+  /// Calls visit(guests) with the live nodes within the radius of `centre`, window after window.
   template <typename Visit>
-  void for_each_within(GridPoint centre, int radius, Visit visit) const {
-    const int x0 = centre.x > radius ? centre.x - radius : 0;
-    const int y0 = centre.y > radius ? centre.y - radius : 0;
-    const int tx1 = min_of((centre.x + radius) / tile_px, tiles_a_row_ - 1);
-    const int ty1 = min_of((centre.y + radius) / tile_px, tile_rows_ - 1);
-    for (int ty = y0 / tile_px; ty <= ty1; ++ty) {
-      for (int w = x0 / tile_px / bits_per_word; w <= tx1 / bits_per_word; ++w) {
-        BitWord row = rows_[static_cast<std::size_t>(ty * words_a_row_ + w)];
-        row &= between(x0 / tile_px - w * bits_per_word, tx1 - w * bits_per_word);
-        for_each_bit(row, [&](int bit) { visit_tile(w * bits_per_word + bit, ty, centre, radius, visit); });
+  void visit_disc(GridPoint centre, Visit visit) const {
+    const int top = std::max(std::min(centre.y - radius_, rows_ - height_), 0);
+    for (int c = 0; c <= 2 * radius_; c += strip_px) {
+      const int x = centre.x - radius_ + c;
+      const int left = (x + strip_px) / strip_px - 1;
+      if (x <= -strip_px || left >= strips_) continue;
+      Guests guests;
+      guests.window = {strip(left) + top, strip(left + 1) + top, static_cast<unsigned>(x) % strip_px, x, top};
+      if (masks_.usable()) {
+        gather(masks_.strip(c, top - centre.y + radius_), guests);
+        visit(guests);
+      } else {
+        gather_far(centre, guests, visit);
       }
     }
   }
 
  private:
+  [[nodiscard]] std::uint16_t* strip(int i) const { return bits_ + (i == strips_ ? 0 : (i + 1) * rows_); }
+  void gather(const std::uint16_t* mask, Guests& guests) const {
+    const Window window = guests.window;
+    std::size_t words = 0;
+    for (int row = 0; row < height_; row += rows_at_once) {
+      const Rows inside = window.load(row) & load_rows(mask + row);
+      guests.inside[words] = inside;  // taken when there is something in it: no branch to foresee
+      guests.row[words] = row;
+      words += inside != 0 ? 1U : 0U;
+    }
+    guests.words = words;
+  }
+  /// Where there are no masks: word by word.
   template <typename Visit>
-  void visit_tile(int tx, int ty, GridPoint centre, int radius, Visit& visit) const {
-    for_each_bit(tiles_[static_cast<std::size_t>(ty * tiles_a_row_ + tx)], [&](int b) {
-      const int x = tx * tile_px + b % tile_px;
-      const int y = ty * tile_px + b / tile_px;
-      const int dx = x - centre.x;
-      const int dy = y - centre.y;
-      if (dx * dx + dy * dy <= radius * radius) visit(x, y);
-    });
+  void gather_far(GridPoint centre, Guests& guests, Visit& visit) const {
+    for (int row = 0; row < height_; row += rows_at_once) {
+      Rows inside = 0;
+      for_each_bit(guests.window.load(row), [&](int b) {
+        const int dx = guests.window.x + b % strip_px - centre.x;
+        const int dy = guests.window.y + row + b / strip_px - centre.y;
+        if (dx <= radius_ && dx * dx + dy * dy <= radius_ * radius_) inside |= Rows{1} << b;
+      });
+      guests.inside[0] = inside;
+      guests.row[0] = row;
+      guests.words = inside != 0 ? 1U : 0U;
+      visit(guests);
+    }
   }
-  static int min_of(int a, int b) { return b < a ? b : a; }
-  /// Bits first..last of a word; what lies outside the word is left out.
-  static BitWord between(int first, int last) {
-    const BitWord from = first <= 0 ? ~BitWord{0} : ~BitWord{0} << first;
-    const BitWord to = last >= bits_per_word - 1 ? ~BitWord{0} : (BitWord{1} << (last + 1)) - 1;
-    return from & to;
-  }
-  BitWord& tile(int tx, int ty) { return tiles_[static_cast<std::size_t>(ty * tiles_a_row_ + tx)]; }
-  BitWord& row_word(GridPoint p) {
-    return rows_[static_cast<std::size_t>(p.y / tile_px * words_a_row_ + p.x / tile_px / bits_per_word)];
-  }
-  static BitWord row_bit(GridPoint p) { return BitWord{1} << (p.x / tile_px % bits_per_word); }
-  static BitWord bit(GridPoint p) { return BitWord{1} << (p.y % tile_px * tile_px + p.x % tile_px); }
 
-  std::span<BitWord> tiles_;
-  std::span<BitWord> rows_;
-  int tiles_a_row_;
-  int tile_rows_;
-  int words_a_row_;
+  std::uint16_t* bits_;
+  int strips_;
+  int rows_;  // of a strip
+  int radius_;
+  int height_;  // of a window: it covers the disc
+  DiscMasks masks_;
 };
-
-int initial_weight(int neighbours, const DigestionParameters& p) {
-  if (neighbours <= 1) return 0;
-  if (neighbours == 2) return p.low_weight;
-  return neighbours == 3 ? p.medium_weight : p.high_weight;
-}
 
 /// Lines 19 to 27 of Algorithm 1 for one pixel: the heaviest live node of the disc eats the others. Of equal ones the
 /// first in raster order wins. Weights are compared as they were before this meal.
-PixelIndex digest_around(const SkeletonIndex& skeleton, PixelIndex pixel, int radius, LiveNodes& live,
-                         const DigestionMemory& memory) {
-  PixelIndex winner = no_pixel;
-  std::int32_t sum = 0;
-  const auto eat = [&](PixelIndex loser, PixelIndex by) {
-    live.remove(skeleton.pixel(loser));
-    memory.weight[loser] = 0;
-    memory.parent[loser] = by;
-  };
-  live.for_each_within(skeleton.pixel(pixel), radius, [&](int x, int y) {
-    const PixelIndex node = skeleton.at(x, y);
-    sum += memory.weight[node];
-    if (winner == no_pixel) {
-      winner = node;
-      return;
+class Meal {
+ public:
+  Meal(const SkeletonIndex& skeleton, const DigestionMemory& memory) : skeleton_(skeleton), memory_(memory) {}
+
+  void join(const Guests& guests) {
+    for (std::size_t i = 0; i < guests.words; ++i) {
+      guests.window.remove(guests.row[i], guests.inside[i]);
+      for_each_bit(guests.inside[i], [&](int b) { compare(guests.window, guests.row[i], static_cast<unsigned>(b)); });
     }
-    const std::int32_t best = memory.weight[winner];
-    const std::int32_t own = memory.weight[node];
-    if (own > best || (own == best && node < winner)) {
-      eat(winner, node);
-      winner = node;
-    } else {
-      eat(node, winner);
+  }
+  [[nodiscard]] PixelIndex winner() const { return winner_; }  // no_pixel when there is no live node
+  void finish() const {
+    memory_.weight[winner_] = sum_;
+    window_.add(row_, Rows{1} << bit_);
+  }
+
+ private:
+  void compare(const Window& window, int row, unsigned bit) {
+    const PixelIndex node = skeleton_.number_of(window.x + static_cast<int>(bit % strip_px),
+                                                window.y + row + static_cast<int>(bit / strip_px));
+    const std::int32_t own = memory_.weight[node];
+    sum_ += own;
+    PixelIndex loser = node;
+    if (own > best_ || (own == best_ && node < winner_)) {
+      loser = winner_;
+      winner_ = node;
+      best_ = own;
+      window_ = window;
+      row_ = row;
+      bit_ = bit;
+      if (loser == no_pixel) return;  // the first guest
     }
+    memory_.weight[loser] = 0;
+    memory_.parent[loser] = winner_;
+  }
+
+  const SkeletonIndex& skeleton_;
+  const DigestionMemory& memory_;
+  PixelIndex winner_ = no_pixel;
+  std::int32_t best_ = 0;
+  std::int32_t sum_ = 0;
+  Window window_{};  // of the winner
+  int row_ = 0;
+  unsigned bit_ = 0;
+};
+
+/// Lets the disc around a pixel eat. An end point has weight 0 and is no live node; it still belongs to the one that
+/// rules its neighbourhood.
+void digest_around(const SkeletonIndex& skeleton, PixelIndex pixel, const LiveNodes& live,
+                   const DigestionMemory& memory) {
+  const bool is_free = memory.parent[pixel] == pixel && memory.weight[pixel] == 0;
+  Meal meal(skeleton, memory);
+  live.visit_disc(skeleton.pixel(pixel), [&](const Guests& guests) {
+    const bool alone = guests.words == 1 && (guests.inside[0] & (guests.inside[0] - 1)) == 0;
+    if (alone && !is_free && live.has_one_window()) return;  // nobody is eaten
+    meal.join(guests);
   });
-  if (winner != no_pixel) memory.weight[winner] = sum;
-  return winner;
+  if (meal.winner() == no_pixel) return;
+  meal.finish();
+  if (is_free) memory.parent[pixel] = meal.winner();
+}
+
+/// The weights of 64 pixels by their numbers of neighbours, as two bits each: 0, low, medium, high.
+struct WeightBits {
+  BitWord units, twos;
+};
+WeightBits weight_bits(const NeighbourWords& n) {
+  const auto add = [](BitWord a, BitWord b, BitWord c, BitWord& carry) {
+    const BitWord ab = a ^ b;
+    carry = (a & b) | (ab & c);
+    return ab ^ c;
+  };
+  BitWord carry[4];
+  const BitWord a = add(n.n, n.ne, n.e, carry[0]);
+  const BitWord b = add(n.se, n.s, n.sw, carry[1]);
+  const BitWord c = add(n.w, n.nw, 0, carry[2]);
+  const BitWord odd = add(a, b, c, carry[3]);
+  const BitWord four =
+      (carry[0] & carry[1]) | (carry[2] & carry[3]) | ((carry[0] | carry[1]) & (carry[2] | carry[3]));  // or more
+  const BitWord two = carry[0] | carry[1] | carry[2] | carry[3];                                        // or more
+  return {(two & ~odd) | four, (two & odd) | four};
+}
+
+/// Every pixel its own set, with the weight of its neighbourhood; those with a weight are live.
+void prepare(const SkeletonIndex& skeleton, const DigestionParameters& p, const DigestionMemory& memory,
+             LiveNodes& live) {
+  const std::int32_t weights[4] = {0, p.low_weight, p.medium_weight, p.high_weight};
+  const auto all_if = [](int weight) { return weight > 0 ? ~BitWord{0} : BitWord{0}; };
+  const BitWord low = all_if(p.low_weight);
+  const BitWord medium = all_if(p.medium_weight);
+  const BitWord high = all_if(p.high_weight);
+  const int words = words_for(skeleton.width());
+  PixelIndex i = 0;
+  for (int y = skeleton.first_row(); y < skeleton.height(); ++y) {
+    const BitWord* row = skeleton.row(y);
+    for (int k = 0; k < words; ++k) {
+      if (row[k] == 0) continue;
+      const WeightBits bits = weight_bits(neighbour_words(skeleton.row(y - 1), row, skeleton.row(y + 1), k, words));
+      live.set_row(k, y,
+                   row[k] & ((bits.units & ~bits.twos & low) | (~bits.units & bits.twos & medium) |
+                             (bits.units & bits.twos & high)));
+      for_each_bit(row[k], [&](int b) {
+        memory.parent[i] = i;
+        memory.weight[i] = weights[(bits.units >> b & 1U) | (bits.twos >> b & 1U) << 1U];
+        ++i;
+      });
+    }
+  }
 }
 
 /// For an end point without a live node in its disc: the set of the pixel that it hangs on, or itself.
@@ -145,17 +319,10 @@ DigestionResult digest(const SkeletonIndex& skeleton, const DigestionParameters&
                        const DigestionMemory& memory) {
   const auto count = static_cast<PixelIndex>(skeleton.size());
   assert(memory.parent.size() >= count && memory.weight.size() >= count && parameters.radius_px >= 0);
-  LiveNodes live(memory, skeleton.width(), skeleton.height());
+  LiveNodes live(memory.live, skeleton.width(), skeleton.height(), parameters.radius_px);
+  prepare(skeleton, parameters, memory, live);
   for (PixelIndex i = 0; i < count; ++i) {
-    const int neighbours = count_of(skeleton.neighbours(skeleton.pixel(i)));
-    memory.parent[i] = i;
-    memory.weight[i] = initial_weight(neighbours, parameters);
-    if (memory.weight[i] > 0) live.add(skeleton.pixel(i));
-  }
-  for (PixelIndex i = 0; i < count; ++i) {
-    const PixelIndex winner = digest_around(skeleton, i, parameters.radius_px, live, memory);
-    // An end point has weight 0 and is no live node; it still belongs to the one that rules its neighbourhood.
-    if (winner != no_pixel && memory.parent[i] == i && memory.weight[i] == 0) memory.parent[i] = winner;
+    digest_around(skeleton, i, live, memory);
   }
   for (PixelIndex i = 0; i < count; ++i) {
     if (memory.parent[i] == i && memory.weight[i] == 0) memory.parent[i] = neighbour_set(skeleton, i, memory);

@@ -4,8 +4,8 @@
 // heaviest node within the digestion radius eat all others there. Who is left is a major node.
 //
 // The matrix form visits every pixel of the disc. Here a set is a live node with all that it has eaten, its weight is
-// kept at the root, and only live roots are gathered, from a grid of 8x8 tiles of one word each and a bit a tile above
-// it. So the cost follows the live nodes in the disc, not its area; the major nodes are those of the matrix form.
+// kept at the root, and only live roots are gathered: from a bit map, 64 pixels at once under a mask of the disc. So
+// the cost follows the live nodes in the disc, hardly its area; the major nodes are those of the matrix form.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,15 @@ struct DigestionParameters {
   int low_weight = 1, medium_weight = 10, high_weight = 100;  // of 2, 3, 4 or more neighbours; 0..32,767
 };
 
+/// The live nodes are kept as bits in strips of 16 columns, row after row, and in an empty strip beside them.
+constexpr int rows_of_strip(int height) { return (height + 3) / 4 * 4; }
+constexpr std::size_t live_node_rows(int width, int height) {
+  return static_cast<std::size_t>((width + 15) / 16 + 1) * static_cast<std::size_t>(rows_of_strip(height));
+}
+
 /// Working memory and product.
 struct DigestionMemory {
-  std::span<BitWord> tiles;        // (width / 8) x (height / 8), rounded up
-  std::span<BitWord> tile_rows;    // words_for(tiles a row) x tile rows
+  std::span<std::uint16_t> live;   // live_node_rows(width, height)
   std::span<PixelIndex> parent;    // one a skeleton pixel: the forest
   std::span<std::int32_t> weight;  // one a skeleton pixel: 0, or of the whole set at a live root
   std::span<MajorNode> major_nodes;

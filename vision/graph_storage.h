@@ -32,14 +32,11 @@ struct GraphStorage {
   static constexpr std::size_t max_nodes = max_pixels / 5;
   static constexpr std::size_t max_edges = max_nodes * 3 / 2;            // most nodes have two ways, forks three
   static constexpr std::size_t max_points = max_pixels + 2 * max_edges;  // each pixel once, and both ends of every edge
-  static constexpr std::size_t tiles_a_row = (W + 7) / 8;
-  static constexpr std::size_t tile_rows = (H + 7) / 8;
   static_assert(max_pixels < no_pixel, "pixels are numbered with 16 bits");
 
   std::array<GridPoint, max_pixels> pixels{};
   std::array<std::uint16_t, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> pixels_before{};
-  std::array<BitWord, tiles_a_row * tile_rows> tiles{};
-  std::array<BitWord, static_cast<std::size_t>(words_for(static_cast<int>(tiles_a_row))) * tile_rows> tile_row_words{};
+  std::array<std::uint16_t, live_node_rows(W, H)> live{};
   std::array<std::uint16_t, max_pixels> pixel_labels{};  // the forest while digesting, then the node of each pixel
   std::array<std::int32_t, max_pixels> weight{};
   std::array<MajorNode, max_nodes> major_nodes{};
@@ -54,7 +51,7 @@ struct GraphStorage {
 
   [[nodiscard]] GraphMemory memory() {
     return {{pixels, pixels_before},
-            {tiles, tile_row_words, pixel_labels, weight, major_nodes},
+            {live, pixel_labels, weight, major_nodes},
             {pixel_labels, cluster, stack, first_pixel, expanded, nodes, edges, points},
             edge_done};
   }

@@ -45,6 +45,14 @@ class SkeletonIndex {
   [[nodiscard]] GridPoint pixel(PixelIndex i) const { return memory_.pixels[i]; }
   /// The number of a pixel; no_pixel where the skeleton has none.
   [[nodiscard]] PixelIndex at(int x, int y) const;
+  /// The number of a pixel of the skeleton.
+  [[nodiscard]] PixelIndex number_of(int x, int y) const;
+  /// Of the rows that are numbered, the first.
+  [[nodiscard]] int first_row() const { return first_row_; }
+  /// The words of a row; null where no pixel is numbered.
+  [[nodiscard]] const BitWord* row(int y) const {
+    return y < first_row_ || y >= skeleton_.height ? nullptr : skeleton_.row(y);
+  }
   /// Bit k is set when the neighbour in direction k is a skeleton pixel.
   [[nodiscard]] std::uint8_t neighbours(GridPoint p) const;
 
@@ -58,12 +66,16 @@ class SkeletonIndex {
   int dropped_ = 0;
 };
 
+inline PixelIndex SkeletonIndex::number_of(int x, int y) const {
+  const auto column = static_cast<unsigned>(x);
+  const BitWord below = (BitWord{1} << (column % bits_per_word)) - 1;
+  const int w = y * words_for(skeleton_.width) + static_cast<int>(column / bits_per_word);
+  const BitWord word = skeleton_.row(y)[column / bits_per_word];
+  return static_cast<PixelIndex>(memory_.pixels_before[static_cast<std::size_t>(w)] + bits_set(word & below));
+}
+
 inline PixelIndex SkeletonIndex::at(int x, int y) const {
-  if (y < first_row_ || !skeleton_.get(x, y)) return no_pixel;
-  const int w = x / bits_per_word;
-  const BitWord below = (BitWord{1} << (x % bits_per_word)) - 1;
-  const int before = memory_.pixels_before[static_cast<std::size_t>(y * words_for(skeleton_.width) + w)];
-  return static_cast<PixelIndex>(before + bits_set(skeleton_.row(y)[w] & below));
+  return y < first_row_ || !skeleton_.get(x, y) ? no_pixel : number_of(x, y);
 }
 
 /// Of eight neighbours, those that a walk steps to: a diagonal neighbour is left out when a straight one touches both

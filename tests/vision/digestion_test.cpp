@@ -125,7 +125,8 @@ const Bits tee = test::bits({
 TEST_CASE("the forest finds the major nodes of the matrix form on drawn skeletons") {
   for (const Bits& image : {tee, test::drawn_x(), test::drawn_l(), test::drawn_circle(60, 40, 15), test::bits({"#"}),
                             test::bits({"##", "##"}), Bits(0, 0), Bits(5, 5)}) {
-    for (const int radius : {0, 1, 3, 5, 8, 20}) check_against_matrix(image, {radius, 1, 10, 100});
+    for (const int radius : {0, 1, 3, 5, 7, 8, 15, 16, 20, 31, 32, 50})
+      check_against_matrix(image, {radius, 1, 10, 100});
   }
 }
 
