@@ -20,15 +20,16 @@ constexpr int max_masked_radius = 31;  // the masks of larger discs would take t
 
 /// Some rows of a strip at once, as many as a register takes.
 using Rows = std::conditional_t<vector_registers, std::uint64_t, std::uint32_t>;
-constexpr int rows_at_once = static_cast<int>(sizeof(Rows)) / 2;
+constexpr int row_bytes = 2;
+constexpr int rows_at_once = static_cast<int>(sizeof(Rows)) / row_bytes;
 constexpr Rows in_every_row = static_cast<Rows>(0x0001000100010001U);
 
-Rows load_rows(const std::uint16_t* from) {
+Rows load_rows(const unsigned char* from) {
   Rows rows = 0;
   std::memcpy(&rows, from, sizeof rows);
   return rows;
 }
-void store_rows(std::uint16_t* to, Rows rows) { std::memcpy(to, &rows, sizeof rows); }
+void store_rows(unsigned char* to, Rows rows) { std::memcpy(to, &rows, sizeof rows); }
 
 /// The disc as bits, from its left column on: a strip for every sixteen columns, with zeros above and below.
 class DiscMasks {
@@ -46,8 +47,9 @@ class DiscMasks {
   }
   [[nodiscard]] bool usable() const { return radius_ <= max_masked_radius; }
   /// From column `column`, a multiple of 16, and row `row` of the disc on. The row may lie above or below the disc.
-  [[nodiscard]] const std::uint16_t* strip(int column, int row) const {
-    return &bits_[static_cast<std::size_t>(column / strip_px * rows_ + radius_ + strip_margin + row)];
+  [[nodiscard]] const unsigned char* strip(int column, int row) const {
+    return reinterpret_cast<const unsigned char*>(bits_.data()) +
+           row_bytes * (column / strip_px * rows_ + radius_ + strip_margin + row);
   }
 
  private:
@@ -65,24 +67,24 @@ class DiscMasks {
 
 /// Sixteen columns of the live nodes from any column on, which lie in two strips.
 struct Window {
-  std::uint16_t* left;
-  std::uint16_t* right;
+  unsigned char* left;
+  unsigned char* right;
   unsigned shift;  // the window's first column in the left strip
   int x, y;        // of its first bit
 
   [[nodiscard]] Rows from_left() const { return in_every_row * (0xFFFFU >> shift); }
   [[nodiscard]] Rows load(int row) const {
-    const Rows in_left = load_rows(left + row) >> shift;
-    const Rows in_right = right_part(load_rows(right + row));
+    const Rows in_left = load_rows(left + row_bytes * row) >> shift;
+    const Rows in_right = right_part(load_rows(right + row_bytes * row));
     return (in_left & from_left()) | (in_right & ~from_left());
   }
   void remove(int row, Rows nodes) const {
-    store_rows(left + row, load_rows(left + row) & ~((nodes & from_left()) << shift));
-    store_rows(right + row, load_rows(right + row) & ~back_right(nodes & ~from_left()));
+    store_rows(left + row_bytes * row, load_rows(left + row_bytes * row) & ~((nodes & from_left()) << shift));
+    store_rows(right + row_bytes * row, load_rows(right + row_bytes * row) & ~back_right(nodes & ~from_left()));
   }
   void add(int row, Rows nodes) const {
-    store_rows(left + row, load_rows(left + row) | (nodes & from_left()) << shift);
-    store_rows(right + row, load_rows(right + row) | back_right(nodes & ~from_left()));
+    store_rows(left + row_bytes * row, load_rows(left + row_bytes * row) | (nodes & from_left()) << shift);
+    store_rows(right + row_bytes * row, load_rows(right + row_bytes * row) | back_right(nodes & ~from_left()));
   }
 
  private:
@@ -104,14 +106,14 @@ static_assert(std::is_trivially_default_constructible_v<Guests>, "made for every
 /// the image.
 class LiveNodes {
  public:
-  LiveNodes(std::span<std::uint16_t> memory, int width, int height, int radius)
-      : bits_(memory.data()),
+  LiveNodes(std::span<BitWord> memory, int width, int height, int radius)
+      : bits_(reinterpret_cast<unsigned char*>(memory.data())),
         strips_((width + strip_px - 1) / strip_px),
         rows_(rows_of_strip(height)),
         radius_(radius),
         height_(std::min((2 * radius + rows_at_once) / rows_at_once * rows_at_once, rows_)),
         masks_(radius) {
-    const std::size_t size = live_node_rows(width, height);
+    const std::size_t size = live_node_words(width, height);
     assert(memory.size() >= size);
     for (std::size_t i = 0; i < size; ++i) memory[i] = 0;
   }
@@ -120,7 +122,8 @@ class LiveNodes {
   void set_row(int i, int y, BitWord nodes) {
     constexpr int strips_a_word = bits_per_word / strip_px;
     for (int k = i * strips_a_word; k < std::min((i + 1) * strips_a_word, strips_); ++k, nodes >>= strip_px) {
-      strip(k)[y] = static_cast<std::uint16_t>(nodes);
+      const auto row = static_cast<std::uint16_t>(nodes);
+      std::memcpy(strip(k) + row_bytes * y, &row, sizeof row);
     }
   }
 
@@ -135,7 +138,8 @@ class LiveNodes {
       const int left = (x + strip_px) / strip_px - 1;
       if (x <= -strip_px || left >= strips_) continue;
       Guests guests;
-      guests.window = {strip(left) + top, strip(left + 1) + top, static_cast<unsigned>(x) % strip_px, x, top};
+      guests.window = {strip(left) + row_bytes * top, strip(left + 1) + row_bytes * top,
+                       static_cast<unsigned>(x) % strip_px, x, top};
       if (masks_.usable()) {
         gather(masks_.strip(c, top - centre.y + radius_), guests);
         visit(guests);
@@ -146,12 +150,12 @@ class LiveNodes {
   }
 
  private:
-  [[nodiscard]] std::uint16_t* strip(int i) const { return bits_ + (i == strips_ ? 0 : (i + 1) * rows_); }
-  void gather(const std::uint16_t* mask, Guests& guests) const {
+  [[nodiscard]] unsigned char* strip(int i) const { return bits_ + (i == strips_ ? 0 : row_bytes * (i + 1) * rows_); }
+  void gather(const unsigned char* mask, Guests& guests) const {
     const Window window = guests.window;
     std::size_t words = 0;
     for (int row = 0; row < height_; row += rows_at_once) {
-      const Rows inside = window.load(row) & load_rows(mask + row);
+      const Rows inside = window.load(row) & load_rows(mask + row_bytes * row);
       guests.inside[words] = inside;  // taken when there is something in it: no branch to foresee
       guests.row[words] = row;
       words += inside != 0 ? 1U : 0U;
@@ -175,7 +179,7 @@ class LiveNodes {
     }
   }
 
-  std::uint16_t* bits_;
+  unsigned char* bits_;
   int strips_;
   int rows_;  // of a strip
   int radius_;
@@ -252,20 +256,8 @@ struct WeightBits {
   BitWord units, twos;
 };
 WeightBits weight_bits(const NeighbourWords& n) {
-  const auto add = [](BitWord a, BitWord b, BitWord c, BitWord& carry) {
-    const BitWord ab = a ^ b;
-    carry = (a & b) | (ab & c);
-    return ab ^ c;
-  };
-  BitWord carry[4];
-  const BitWord a = add(n.n, n.ne, n.e, carry[0]);
-  const BitWord b = add(n.se, n.s, n.sw, carry[1]);
-  const BitWord c = add(n.w, n.nw, 0, carry[2]);
-  const BitWord odd = add(a, b, c, carry[3]);
-  const BitWord four =
-      (carry[0] & carry[1]) | (carry[2] & carry[3]) | ((carry[0] | carry[1]) & (carry[2] | carry[3]));  // or more
-  const BitWord two = carry[0] | carry[1] | carry[2] | carry[3];                                        // or more
-  return {(two & ~odd) | four, (two & odd) | four};
+  const NeighbourCount count = count_neighbours(n);
+  return {(count.two & ~count.odd) | count.four, (count.two & count.odd) | count.four};
 }
 
 /// Every pixel its own set, with the weight of its neighbourhood; those with a weight are live.

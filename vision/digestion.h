@@ -23,13 +23,13 @@ struct DigestionParameters {
 
 /// The live nodes are kept as bits in strips of 16 columns, row after row, and in an empty strip beside them.
 constexpr int rows_of_strip(int height) { return (height + 3) / 4 * 4; }
-constexpr std::size_t live_node_rows(int width, int height) {
-  return static_cast<std::size_t>((width + 15) / 16 + 1) * static_cast<std::size_t>(rows_of_strip(height));
+constexpr std::size_t live_node_words(int width, int height) {
+  return static_cast<std::size_t>((width + 15) / 16 + 1) * static_cast<std::size_t>(rows_of_strip(height) / 4);
 }
 
 /// Working memory and product.
 struct DigestionMemory {
-  std::span<std::uint16_t> live;   // live_node_rows(width, height)
+  std::span<BitWord> live;         // live_node_words(width, height)
   std::span<PixelIndex> parent;    // one a skeleton pixel: the forest
   std::span<std::int32_t> weight;  // one a skeleton pixel: 0, or of the whole set at a live root
   std::span<MajorNode> major_nodes;

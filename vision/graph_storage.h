@@ -2,12 +2,14 @@
 // Memory of digestion and node graph for working images of up to W x H pixels.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "vision/digestion.h"
+#include "vision/image/thinning.h"
 #include "vision/node_graph.h"
 #include "vision/skeleton_index.h"
 
@@ -36,7 +38,8 @@ struct GraphStorage {
 
   std::array<GridPoint, max_pixels> pixels{};
   std::array<std::uint16_t, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> pixels_before{};
-  std::array<std::uint16_t, live_node_rows(W, H)> live{};
+  std::array<BitWord, std::max(live_node_words(W, H), thinning_columns_size(W, H))>
+      plane{};                                           // live nodes; before that, thinning
   std::array<std::uint16_t, max_pixels> pixel_labels{};  // the forest while digesting, then the node of each pixel
   std::array<std::int32_t, max_pixels> weight{};
   std::array<MajorNode, max_nodes> major_nodes{};
@@ -51,8 +54,16 @@ struct GraphStorage {
 
   [[nodiscard]] GraphMemory memory() {
     return {{pixels, pixels_before},
-            {live, pixel_labels, weight, major_nodes},
-            {pixel_labels, cluster, stack, first_pixel, expanded, nodes, edges, points},
+            {{plane.data(), live_node_words(W, H)}, pixel_labels, weight, major_nodes},
+            {{plane.data(), words_for(W) * std::size_t{H}},
+             pixel_labels,
+             cluster,
+             stack,
+             first_pixel,
+             expanded,
+             nodes,
+             edges,
+             points},
             edge_done};
   }
 };

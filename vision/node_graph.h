@@ -27,6 +27,7 @@ struct NodeGraphParameters {
 
 /// Working memory and product. The sizes of nodes, edges and points are capacities.
 struct NodeGraphMemory {
+  std::span<BitWord> open;               // as the mask: pixels of lines that no edge has taken
   std::span<std::uint16_t> node_of;      // one a skeleton pixel
   std::span<PixelIndex> cluster;         // one a skeleton pixel: the pixels of the forks, fork by fork
   std::span<std::uint16_t> stack;        // one a skeleton pixel; holds pixels, then nodes

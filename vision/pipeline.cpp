@@ -202,7 +202,7 @@ void Pipeline::make_line_mask(VisionResult& result) {
 void Pipeline::make_skeleton(VisionResult& result) {
   const BitView& skeleton = views_.mask(MaskId::skeleton);
   copy(views_.mask(MaskId::line_mask), skeleton);
-  thin(skeleton, memory_.thinning);
+  thin(skeleton, memory_.thinning, config_.kernels.thin);
   remove_short_pieces(skeleton, result.line_widths, scaled(5), views_.mask(MaskId::scratch), memory_.stack);
   result.skeleton = skeleton;
   result.counts.skeleton_pixels = count(skeleton);

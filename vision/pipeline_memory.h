@@ -55,7 +55,7 @@ struct PipelineMemory {
   std::array<std::span<BitWord>, mask_count> masks;
   std::span<Vec3> rays;
   std::span<LineWidth> line_widths;
-  std::span<ThinningScratch> thinning;
+  ThinningMemory thinning;
   std::span<GridPoint> stack;
   BlobMemory blob_search;
   std::span<Blob> blobs;

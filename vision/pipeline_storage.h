@@ -30,7 +30,7 @@ class PipelineStorage {
     m.masks[static_cast<std::size_t>(MaskId::skeleton)] = m.masks[static_cast<std::size_t>(MaskId::white)];
     m.rays = rays_;
     m.line_widths = line_widths_;
-    m.thinning = thinning_;
+    m.thinning = {graph_.plane, masks_[static_cast<std::size_t>(MaskId::scratch)].words, thinning_marks_};
     m.stack = stack_;
     m.blob_search = blob_search_.memory();
     m.blobs = blobs_;
@@ -55,7 +55,7 @@ class PipelineStorage {
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
   std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>
       line_widths_{};
-  std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(H))> thinning_{};
+  std::array<BitWord, thinning_marks_size(W, H)> thinning_marks_{};
   // Pixels that wait while a piece of skeleton is followed, depth first: three a fork at the most.
   std::array<GridPoint, 512> stack_{};
   BlobStorage<W> blob_search_{};

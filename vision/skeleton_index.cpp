@@ -9,21 +9,6 @@
 namespace touchline {
 namespace {
 
-constexpr std::array<std::uint8_t, 256> make_step_table() {
-  std::array<std::uint8_t, 256> table{};
-  for (unsigned n = 0; n < 256; ++n) {
-    unsigned steps = n & 0x55U;  // the four straight neighbours
-    for (unsigned k = 1; k < 8; k += 2) {
-      const bool set = ((n >> k) & 1U) != 0;
-      const bool round_a_corner = ((n >> (k - 1)) & 1U) != 0 || ((n >> ((k + 1) & 7U)) & 1U) != 0;
-      if (set && !round_a_corner) steps |= 1U << k;
-    }
-    table[n] = static_cast<std::uint8_t>(steps);
-  }
-  return table;
-}
-constexpr std::array<std::uint8_t, 256> step_table = make_step_table();
-
 constexpr std::array<std::uint8_t, 256> make_count_table() {
   std::array<std::uint8_t, 256> table{};
   for (unsigned n = 0; n < 256; ++n) table[n] = static_cast<std::uint8_t>(bits_set(n));
@@ -39,7 +24,6 @@ int count_row(ConstBitView image, int y) {
 
 }  // namespace
 
-std::uint8_t steps_of(std::uint8_t neighbours) { return step_table[neighbours]; }
 int count_of(std::uint8_t neighbours) { return count_table[neighbours]; }
 
 bool SkeletonIndex::build(ConstBitView skeleton) {
@@ -74,30 +58,6 @@ bool SkeletonIndex::build(ConstBitView skeleton) {
     }
   }
   return true;
-}
-
-unsigned SkeletonIndex::three(int x, int y) const {
-  if (y < first_row_ || y >= skeleton_.height) return 0;
-  const BitWord* row = skeleton_.row(y);
-  const int w = x / bits_per_word;
-  const int bit = x % bits_per_word;
-  if (bit == 0) {
-    const BitWord left = w > 0 ? row[w - 1] >> (bits_per_word - 1) : 0;
-    return static_cast<unsigned>(((row[w] & 3U) << 1) | left);
-  }
-  BitWord bits = row[w] >> (bit - 1);
-  if (bit == bits_per_word - 1 && w + 1 < words_for(skeleton_.width)) bits |= row[w + 1] << 2;
-  return static_cast<unsigned>(bits & 7U);
-}
-
-std::uint8_t SkeletonIndex::neighbours(GridPoint p) const {
-  const unsigned above = three(p.x, p.y - 1);
-  const unsigned here = three(p.x, p.y);
-  const unsigned below = three(p.x, p.y + 1);
-  const unsigned n = ((above >> 1) & 1U) | (((above >> 2) & 1U) << 1) | (((here >> 2) & 1U) << 2) |
-                     (((below >> 2) & 1U) << 3) | (((below >> 1) & 1U) << 4) | ((below & 1U) << 5) |
-                     ((here & 1U) << 6) | ((above & 1U) << 7);
-  return static_cast<std::uint8_t>(n);
 }
 
 }  // namespace touchline

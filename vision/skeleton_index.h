@@ -3,6 +3,7 @@
 // keep their state per skeleton pixel and not per image pixel: a skeleton covers about one pixel in fifty.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -55,9 +56,14 @@ class SkeletonIndex {
   }
   /// Bit k is set when the neighbour in direction k is a skeleton pixel.
   [[nodiscard]] std::uint8_t neighbours(GridPoint p) const;
+  /// Those of them that a walk steps to (steps_of() below).
+  [[nodiscard]] std::uint8_t steps(int x, int y) const;
 
  private:
   [[nodiscard]] unsigned three(int x, int y) const;  // pixels x - 1, x, x + 1 of row y in bits 0, 1, 2
+  [[nodiscard]] unsigned block(int x, int y) const {
+    return three(x, y - 1) | three(x, y) << 3U | three(x, y + 1) << 6U;
+  }
 
   SkeletonIndexMemory memory_;
   ConstBitView skeleton_{};
@@ -80,7 +86,44 @@ inline PixelIndex SkeletonIndex::at(int x, int y) const {
 
 /// Of eight neighbours, those that a walk steps to: a diagonal neighbour is left out when a straight one touches both
 /// it and the pixel. So a corner of a staircase has two ways on and not three ("mixed adjacency", Rosenfeld & Kak).
-std::uint8_t steps_of(std::uint8_t neighbours);
+constexpr std::uint8_t steps_of(std::uint8_t neighbours) {
+  unsigned steps = neighbours & 0x55U;  // the four straight neighbours
+  for (unsigned k = 1; k < 8; k += 2) {
+    const unsigned beside = 1U << (k - 1) | 1U << ((k + 1) & 7U);
+    if ((neighbours & beside) == 0) steps |= neighbours & 1U << k;
+  }
+  return static_cast<std::uint8_t>(steps);
+}
+
+/// The neighbours in a block of three by three pixels, whose rows are bits 0-2, 3-5 and 6-8.
+constexpr std::uint8_t ring_of(unsigned block) {
+  constexpr unsigned places[8] = {1, 2, 5, 8, 7, 6, 3, 0};
+  unsigned ring = 0;
+  for (unsigned k = 0; k < 8; ++k) ring |= (block >> places[k] & 1U) << k;
+  return static_cast<std::uint8_t>(ring);
+}
+inline constexpr std::array<std::uint8_t, 512> steps_of_block = [] {
+  std::array<std::uint8_t, 512> table{};
+  for (unsigned block = 0; block < table.size(); ++block) table[block] = steps_of(ring_of(block));
+  return table;
+}();
+
+inline unsigned SkeletonIndex::three(int x, int y) const {
+  const BitWord* words = row(y);
+  if (words == nullptr) return 0;
+  const auto w = static_cast<unsigned>(x) / bits_per_word;
+  const unsigned bit = static_cast<unsigned>(x) % bits_per_word;
+  if (bit == 0) {
+    const BitWord left = w > 0 ? words[w - 1] >> (bits_per_word - 1) : 0;
+    return static_cast<unsigned>(((words[w] & 3U) << 1) | left);
+  }
+  BitWord bits = words[w] >> (bit - 1);
+  if (bit == bits_per_word - 1 && static_cast<int>(w) + 1 < words_for(skeleton_.width)) bits |= words[w + 1] << 2;
+  return static_cast<unsigned>(bits & 7U);
+}
+inline std::uint8_t SkeletonIndex::neighbours(GridPoint p) const { return ring_of(block(p.x, p.y)); }
+inline std::uint8_t SkeletonIndex::steps(int x, int y) const { return steps_of_block[block(x, y)]; }
+
 /// How many of eight bits are set.
 int count_of(std::uint8_t neighbours);
 

@@ -9,6 +9,7 @@
 #include "tests/bench/chain_under_test.h"
 #include "tests/bench/cpu_clock.h"
 #include "tests/bench/opencv_chain.h"
+#include "tests/support/thinning_memory.h"
 #include "vision/green.h"
 #include "vision/ground_mask.h"
 #include "vision/image/bit_ops.h"
@@ -216,7 +217,7 @@ class PairedRun {
     iou_skeleton_.push_back(overlap(skeleton, opencv_.skeleton()));
     skeleton_covered_.push_back(covered(skeleton, opencv_.skeleton()));
     copy(v.line_mask, thinned_.view());
-    same_mask_ours_.push_back(timed([&] { (void)thin(thinned_.view(), scratch_); }));
+    same_mask_ours_.push_back(timed([&] { (void)thin(thinned_.view(), thinning_.memory(), fastest_kernels().thin); }));
     cv::Mat theirs;
     same_mask_opencv_.push_back(opencv_thinning(lines, theirs));
     iou_same_mask_.push_back(overlap(to_mat(thinned_.view()), theirs));
@@ -228,7 +229,7 @@ class PairedRun {
   std::vector<Vec3> rays_;
   RayGridView grid_;
   BitImage<width, height> seen_, ground_, thinned_, scratch_mask_;
-  std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(height))> scratch_{};
+  test::OwnThinningMemory thinning_{width, height};
   std::vector<std::uint8_t> target_;
 
   host::StageTimes ours_{};

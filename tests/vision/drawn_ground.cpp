@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/support/paper_lens.h"
+#include "tests/support/thinning_memory.h"
 #include "vision/image/thinning.h"
 
 namespace touchline::test {
@@ -56,8 +57,8 @@ Seen::Seen(const Scene& scene, float circle_radius)
     }
   }
   skeleton = mask;
-  std::vector<ThinningScratch> scratch(static_cast<std::size_t>(thinning_scratch_size(240)));
-  (void)thin(skeleton.view(), scratch);
+  test::OwnThinningMemory thinning(320, 240);
+  (void)thin(skeleton.view(), thinning.memory());
   const GraphMemory memory = storage->memory();
   SkeletonIndex index(memory.index);
   REQUIRE(index.build(skeleton.view()));

@@ -8,6 +8,7 @@
 
 #include "platform/core/elementary.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/thinning_memory.h"
 #include "tests/vision/painted_field.h"
 #include "vision/image/thinning.h"
 #include "vision/line_points.h"
@@ -26,8 +27,8 @@ class LinePicture {
       for (int x = 0; x < w; ++x) mask_.view().set(x, y, is_line(x, y));
     }
     skeleton_ = mask_;
-    std::array<ThinningScratch, static_cast<std::size_t>(thinning_scratch_size(h))> scratch{};
-    thin(skeleton_.view(), scratch);
+    OwnThinningMemory thinning(w, h);
+    thin(skeleton_.view(), thinning.memory());
   }
   LinePicture(const LinePicture&) = delete;  // the rays look at the projection
   LinePicture& operator=(const LinePicture&) = delete;

@@ -2,6 +2,7 @@
 #include "tests/vision/skeletons.h"
 
 #include "platform/core/rng.h"
+#include "tests/support/thinning_memory.h"
 #include "vision/image/thinning.h"
 
 namespace touchline::test {
@@ -95,8 +96,8 @@ Bits random_skeleton(unsigned seed) {
       grid(image, rng);
       break;
   }
-  std::vector<ThinningScratch> scratch(static_cast<std::size_t>(thinning_scratch_size(image.height)));
-  (void)thin(image.view(), scratch);
+  OwnThinningMemory thinning(image.width, image.height);
+  (void)thin(image.view(), thinning.memory());
   return image;
 }
 

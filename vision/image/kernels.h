@@ -13,6 +13,7 @@
 #include "vision/image/luma_bands.h"
 #include "vision/image/moments.h"
 #include "vision/image/ridge_block.h"
+#include "vision/image/thinning_pass.h"
 
 namespace touchline {
 
@@ -45,6 +46,7 @@ struct Kernels {
   CarpetKernels carpet;
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered
+  ThinningKernel thin = nullptr;                                                   // null: thin() has its own
 };
 
 /// For every processor.

@@ -11,6 +11,7 @@
 #include "vision/image/luma_bands_loops.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
+#include "vision/image/thinning_loops.h"
 
 namespace touchline {
 namespace {
@@ -244,6 +245,7 @@ Kernels avx2_kernels() {
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = window_moments,
+      .thin = thinning::run,
   };
 }
 

@@ -22,6 +22,7 @@ Kernels portable_kernels() {
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = nullptr,
+      .thin = nullptr,
   };
 }
 Kernels word_kernels() {
@@ -35,6 +36,7 @@ Kernels word_kernels() {
       .carpet = carpet_words::kernels(),
       .edges = {},
       .window_moments = nullptr,
+      .thin = nullptr,
   };
 }
 

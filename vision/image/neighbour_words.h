@@ -31,4 +31,24 @@ inline NeighbourWords neighbour_words(const BitWord* above, const BitWord* here,
   return {north.here, north.east, middle.east, south.east, south.here, south.west, middle.west, north.west};
 }
 
+/// How many neighbours are set, in bits of their own.
+struct NeighbourCount {
+  BitWord odd, two, four;  // an odd number; two or more; four or more
+};
+inline NeighbourCount count_neighbours(const NeighbourWords& n) {
+  const auto add = [](BitWord a, BitWord b, BitWord c, BitWord& carry) {
+    const BitWord ab = a ^ b;
+    carry = (a & b) | (ab & c);
+    return ab ^ c;
+  };
+  BitWord carry[4];
+  const BitWord a = add(n.n, n.ne, n.e, carry[0]);
+  const BitWord b = add(n.se, n.s, n.sw, carry[1]);
+  const BitWord c = add(n.w, n.nw, 0, carry[2]);
+  const BitWord odd = add(a, b, c, carry[3]);
+  const BitWord ab = carry[0] | carry[1];
+  const BitWord cd = carry[2] | carry[3];
+  return {odd, ab | cd, (carry[0] & carry[1]) | (carry[2] & carry[3]) | (ab & cd)};
+}
+
 }  // namespace touchline

@@ -5,16 +5,33 @@
 // connected.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "vision/image/bit_image.h"
+#include "vision/image/thinning_pass.h"
 
 namespace touchline {
 
-/// One word a row for each of the last two passes: which words of the row changed in it. Bounds the width.
-using ThinningScratch = std::uint32_t;
-inline constexpr int max_thinning_width = 32 * bits_per_word;
-constexpr int thinning_scratch_size(int height) { return 2 * height; }
+/// Working memory for a mask; its contents do not matter.
+struct ThinningMemory {
+  std::span<BitWord> columns;  // thinning_columns_size(width, height)
+  std::span<BitWord> deleted;  // thinning_deleted_size(width, height)
+  std::span<BitWord> marks;    // thinning_marks_size(width, height)
+};
+/// Rows that are worked on: a block's at least.
+constexpr int thinning_height(int height) { return std::max(height, thinning_block_rows); }
+constexpr std::size_t thinning_columns_size(int width, int height) {
+  return static_cast<std::size_t>((words_for(width) + 1) * thinning_stride(thinning_height(height)));
+}
+constexpr std::size_t thinning_deleted_size(int width, int height) {
+  return static_cast<std::size_t>(words_for(width) * thinning_height(height));
+}
+/// Words of marks for the blocks of a column.
+constexpr int thinning_marks(int height) { return words_for((height + thinning_block_rows - 1) / thinning_block_rows); }
+constexpr std::size_t thinning_marks_size(int width, int height) {
+  return static_cast<std::size_t>(4 * words_for(width) * thinning_marks(height));
+}
 
 /// Passes (two an iteration) that thin() makes at most: a blob loses a layer an iteration, so half the shorter side is
 /// usual. Diagonals of width two are eaten from their ends, a pixel an iteration, which is what the longer bound is
@@ -26,9 +43,11 @@ struct ThinningResult {
   bool finished = true;  // false: the bound was reached and some lines are thicker than a pixel
 };
 
-/// Thins `mask` in place; outside the image counts as zero and border pixels are thinned like all others.
-/// `scratch` has thinning_scratch_size(height) elements or more; its contents do not matter. Only words near a change
-/// of the last two passes are looked at again, so the cost follows the lines and not the area.
-ThinningResult thin(BitView mask, std::span<ThinningScratch> scratch);
+/// For every processor.
+[[nodiscard]] ThinningKernel portable_thinning();
+
+/// Thins `mask` in place; outside the image counts as zero and border pixels are thinned like all others. Only blocks
+/// near a change of the last two passes are looked at again, so the cost follows the lines and not the area.
+ThinningResult thin(BitView mask, const ThinningMemory& memory, ThinningKernel kernel = nullptr);
 
 }  // namespace touchline

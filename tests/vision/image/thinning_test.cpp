@@ -6,7 +6,9 @@
 
 #include <algorithm>
 
+#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/thinning_memory.h"
 #include "vision/image/bit_ops.h"
 #include "vision/image/morphology.h"
 
@@ -47,8 +49,11 @@ Bits plain_thin(Bits image) {
 }
 
 Bits fast_thin(Bits image) {
-  std::vector<ThinningScratch> scratch(static_cast<std::size_t>(thinning_scratch_size(image.height)), 0xDEADBEEFU);
-  CHECK(thin(image.view(), scratch).finished);
+  OwnThinningMemory thinning(image.width, image.height);
+  Bits by_kernel = image;
+  CHECK(thin(image.view(), thinning.memory()).finished);
+  CHECK(thin(by_kernel.view(), thinning.memory(), fastest_kernels().thin).finished);
+  CHECK(by_kernel == image);
   return image;
 }
 
@@ -146,8 +151,8 @@ TEST_CASE("known loss: nearly all of a diagonal two pixels wide vanishes") {
 TEST_CASE("the worst image ends within the bound") {
   Bits full(320, 240);
   fill(full.view());
-  std::vector<ThinningScratch> scratch(static_cast<std::size_t>(thinning_scratch_size(240)));
-  const ThinningResult result = thin(full.view(), scratch);
+  OwnThinningMemory thinning(320, 240);
+  const ThinningResult result = thin(full.view(), thinning.memory());
   CHECK(result.finished);
   CHECK(result.iterations <= 122);
 }
