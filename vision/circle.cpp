@@ -23,9 +23,23 @@ constexpr int max_beside = 20;       // percent of directions with line points b
 constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
 constexpr float rag_widths = 0.15F;  // and what the ragged edge of a wide line adds
 constexpr float gate = 2.5F;         // sigmas
+constexpr float slack_radii = 0.2F;  // a refinement seldom moves a centre farther
+constexpr float band_radii = 0.4F;   // and no point farther off, however little is known of it
 constexpr float sigma_tilt = radians(0.5F);
 
 float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
+
+/// A point of a segment, `k` quarters of the way along.
+GroundPoint part_of(const LineSegment& s, int k) {
+  const float t = static_cast<float>(k) / 4.0F;
+  return {s.end[0].x + t * (s.end[1].x - s.end[0].x), s.end[0].y + t * (s.end[1].y - s.end[0].y)};
+}
+
+/// Points in a wide band about a circle, by their index.
+struct NearPoints {
+  StaticVector<std::uint16_t, max_curve_points> points;
+  GroundPoint centre;
+};
 
 class CircleFinder {
  public:
@@ -36,12 +50,17 @@ class CircleFinder {
 
  private:
   void withdraw_votes(const GroundPoint& centre);
+  [[nodiscard]] bool may_have_arc(const GroundPoint& vote, float least) const;
   bool look_at(const GroundPoint& vote, CircleObservation& circle);
   void vote();
   void vote_by_pieces();
   void vote(std::size_t i, std::size_t middle, std::size_t k);
   [[nodiscard]] bool best_vote(GroundPoint& centre) const;
-  [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre) const;
+  [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre) const {
+    return sigma(p, centre, distance(p, centre));
+  }
+  [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre, float apart) const;
+  void gather(const GroundPoint& centre, NearPoints& near) const;
   [[nodiscard]] bool near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const;
   bool refine(GroundPoint& centre, Sym2& information, float& chi) const;
   float arc(const GroundPoint& centre);
@@ -99,11 +118,13 @@ void CircleFinder::vote(std::size_t i, std::size_t middle, std::size_t k) {
   const float expected = r - height;
   const float side = bulge > 0.0F ? -height : height;
   const GroundPoint centre{half.x + side * normal.x, half.y + side * normal.y};
+  // Straight lines are most of the chains: the allowance below is never more than what is expected.
+  if (math::abs(bulge) < 0.25F * expected || math::abs(bulge) > 2.001F * expected) return;
   // Where a skeleton's noise hides the bulge, a straight line votes like an arc: it has no say.
   const float noise = sigma(m, centre);
   if (noise > max_noise * expected) return;
   const float allowed = 0.5F * expected + math::min(noise, 0.5F * expected);
-  if (math::abs(math::abs(bulge) - expected) > allowed || math::abs(bulge) < 0.25F * expected) return;
+  if (math::abs(math::abs(bulge) - expected) > allowed) return;
   work_.votes.push_back(centre);
 }
 
@@ -134,7 +155,8 @@ bool CircleFinder::best_vote(GroundPoint& centre) const {
 }
 
 /// Of a skeleton point, across the circle: what a pixel means in that direction, and the rag of a wide line.
-float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre) const {
+/// `apart` is the distance between both.
+float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre, float apart) const {
   const CameraPose& pose = rays_.projection().pose();
   const float x = p.x - pose.x;
   const float y = p.y - pose.y;
@@ -142,7 +164,7 @@ float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre) const
   const float depth = math::hypot(range, pose.height);
   const float across = depth * rays_.radians_per_pixel() * skeleton_px;
   const float towards = across * depth / pose.height;
-  const float radius = distance(p, centre) + 1.0e-6F;
+  const float radius = apart + 1.0e-6F;
   const float c = (x * (p.x - centre.x) + y * (p.y - centre.y)) / (range * radius);
   return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c) +
                     math::square(rag_widths * parameters_.line_width_m) +
@@ -155,18 +177,37 @@ bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, 
   if (squared > math::square(1.41F * parameters_.radius_m) || squared < math::square(0.59F * parameters_.radius_m)) {
     return false;
   }
-  off = distance(p, centre) - parameters_.radius_m;
-  if (math::abs(off) > 0.4F * parameters_.radius_m) return false;
-  sigma_m = sigma(p, centre);
+  const float apart = math::sqrt(squared);
+  off = apart - parameters_.radius_m;
+  if (math::abs(off) > band_radii * parameters_.radius_m) return false;
+  sigma_m = sigma(p, centre, apart);
   return math::abs(off) < gate * sigma_m;
+}
+
+/// What near_circle() may accept until the centre has moved by the slack.
+void CircleFinder::gather(const GroundPoint& centre, NearPoints& near) const {
+  const float inner = math::square((1.0F - band_radii - slack_radii) * parameters_.radius_m);
+  const float outer = math::square((1.0F + band_radii + slack_radii) * parameters_.radius_m);
+  near.points.clear();
+  near.centre = centre;
+  for (std::size_t i = 0; i < lines_.points.size(); ++i) {
+    const GroundPoint& p = lines_.points[i].ground;
+    const float squared = math::square(p.x - centre.x) + math::square(p.y - centre.y);
+    if (squared > inner && squared < outer) near.points.push_back(static_cast<std::uint16_t>(i));
+  }
 }
 
 /// Gauss-Newton on the centre; the radius is known.
 bool CircleFinder::refine(GroundPoint& centre, Sym2& information, float& chi) const {
+  NearPoints near;
+  gather(centre, near);
   for (int n = 0; n < refinements; ++n) {
+    const GroundPoint before = centre;
+    if (distance(centre, near.centre) > 0.9F * slack_radii * parameters_.radius_m) gather(centre, near);
     information = {};
     float bx = 0.0F, by = 0.0F, sum = 0.0F, weights = 0.0F;
-    for (const ChainPoint& p : lines_.points) {
+    for (const std::uint16_t i : near.points) {
+      const ChainPoint& p = lines_.points[i];
       float off = 0.0F, sigma_m = 1.0F;
       if (!near_circle(p.ground, centre, off, sigma_m)) continue;
       const float d = off + parameters_.radius_m;
@@ -186,6 +227,7 @@ bool CircleFinder::refine(GroundPoint& centre, Sym2& information, float& chi) co
     centre.x += (bx * information.yy - by * information.xy) / det;
     centre.y += (by * information.xx - bx * information.xy) / det;
     chi = math::sqrt(sum / weights);
+    if (centre.x == before.x && centre.y == before.y) break;  // the next step would say the same
   }
   return true;
 }
@@ -229,8 +271,12 @@ float CircleFinder::arc(const GroundPoint& centre) {
 bool CircleFinder::contradicted(const GroundPoint& centre) const {
   enum : std::uint8_t { nothing = 0, on = 1, beside = 2 };
   std::uint8_t bins[circle_bins] = {};
+  const float inner = math::square((0.99F - beside_radii) * parameters_.radius_m);
+  const float outer = math::square((1.01F + beside_radii) * parameters_.radius_m);
   for (const ChainPoint& p : lines_.points) {
-    float off = distance(p.ground, centre) - parameters_.radius_m;
+    const float squared = math::square(p.ground.x - centre.x) + math::square(p.ground.y - centre.y);
+    if (squared > outer || squared < inner) continue;  // bounds a little wider than those of the root
+    float off = math::sqrt(squared) - parameters_.radius_m;
     if (math::abs(off) > beside_radii * parameters_.radius_m) continue;
     float sigma_m = 1.0F;
     const bool near = near_circle(p.ground, centre, off, sigma_m) || math::abs(off) < 1.5F * gate * sigma_m;
@@ -251,15 +297,13 @@ bool CircleFinder::contradicted(const GroundPoint& centre) const {
 
 void CircleFinder::flag_arcs(const GroundPoint& centre) {
   for (LineSegment& s : lines_.segments) {
-    bool all = true;
-    for (int k = 0; k <= 4; ++k) {
-      const float t = static_cast<float>(k) / 4.0F;
-      const GroundPoint p{s.end[0].x + t * (s.end[1].x - s.end[0].x), s.end[0].y + t * (s.end[1].y - s.end[0].y)};
+    s.on_circle = true;
+    for (int k = 0; k <= 4 && s.on_circle; ++k) {
+      const GroundPoint p = part_of(s, k);
       const float off = math::abs(distance(p, centre) - parameters_.radius_m);
-      all = all && off < math::min(2.0F * sigma(p, centre) + 0.5F * parameters_.line_width_m,
-                                   max_off_radii * parameters_.radius_m);
+      s.on_circle =
+          off < max_off_radii * parameters_.radius_m && off < 2.0F * sigma(p, centre) + 0.5F * parameters_.line_width_m;
     }
-    s.on_circle = all;
   }
 }
 
@@ -310,6 +354,25 @@ void CircleFinder::withdraw_votes(const GroundPoint& centre) {
   work_.votes.truncate(kept);
 }
 
+/// Whether there are segments near the circle about a vote that could make up two thirds of an arc. Refinement moves a
+/// centre by a tenth of a radius; the band is as wide as its own. Most votes are of corners: this tells them cheaply.
+bool CircleFinder::may_have_arc(const GroundPoint& vote, float least) const {
+  const float r = parameters_.radius_m;
+  const float inner = math::square((1.0F - band_radii) * r);
+  const float outer = math::square((1.0F + band_radii) * r);
+  float turn = 0.0F;  // at most; arc() counts the bins of both ends as well
+  for (const LineSegment& s : lines_.segments) {
+    bool near = true;
+    for (int k = 0; k <= 4 && near; ++k) {
+      const GroundPoint p = part_of(s, k);
+      const float squared = math::square(p.x - vote.x) + math::square(p.y - vote.y);
+      near = squared > inner && squared < outer;
+    }
+    if (near) turn += 2.0F * s.length / r + 2.0F * bin_width;
+  }
+  return 3.0F * turn > 2.0F * least;
+}
+
 /// Refines the circle at a vote and measures what is seen of it; false where it is none.
 bool CircleFinder::look_at(const GroundPoint& vote, CircleObservation& circle) {
   GroundPoint centre = vote;
@@ -332,10 +395,10 @@ bool CircleFinder::run(CircleObservation& circle) {
   vote();
   bool found = false;
   GroundPoint centre;
-  for (int tried = 0; tried < max_places && best_vote(centre); ++tried) {
+  for (int tried = 0; tried < max_places && !(found && circle.confidence >= 1.0F) && best_vote(centre); ++tried) {
     CircleObservation other;
-    if (look_at(centre, other) && (tried == 0 || other.arc > sure_arc) &&
-        (!found || other.confidence > circle.confidence)) {
+    if (may_have_arc(centre, tried == 0 ? min_arc : sure_arc) && look_at(centre, other) &&
+        (tried == 0 || other.arc > sure_arc) && (!found || other.confidence > circle.confidence)) {
       circle = other;
       found = true;
     }

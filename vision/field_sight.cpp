@@ -56,10 +56,10 @@ Sight FieldSight::look(const GroundPoint& from, const GroundPoint& to) const {
     ++inside;
     if (field_.roi.words != nullptr && !field_.roi.get(x, y)) sight.seen = false;
     // The mask of a thin line may lie a pixel beside its middle.
-    const bool line = field_.lines.get(x, y) || field_.lines.get(x - 1, y) || field_.lines.get(x + 1, y) ||
+    const bool strict = field_.lines.get(x, y);
+    const bool line = strict || field_.lines.get(x - 1, y) || field_.lines.get(x + 1, y) ||
                       field_.lines.get(x, y - 1) || field_.lines.get(x, y + 1);
     white += line ? 1 : 0;
-    const bool strict = field_.lines.get(x, y);
     middle += strict ? 1 : 0;
     carpet += strict || field_.green.get(x, y) ? 1 : 0;
   }
@@ -77,8 +77,10 @@ bool FieldSight::reaches(const LineSegment& s, const GroundPoint& direction, con
   if (before * after <= 0.0F) return true;
   const bool first = math::abs(before) < math::abs(after);
   const float gap = math::abs(first ? before : after);
-  const float heading = math::atan2(direction.y, direction.x);
-  const float px = metres_per_px(at, heading);
+  const GroundPixel pixel(rays_, at);
+  // The longest pixel tells of most that they do not.
+  if (gap > 1.001F * (max_gap_widths * line_width_ + near_px * pixel.longest())) return false;
+  const float px = pixel.along(Heading(math::atan2(direction.y, direction.x)));
   if (gap <= math::max(near_widths * line_width_, near_px * px)) return true;
   if (gap > math::min(max_gap_px * px, max_gap_widths * line_width_ + near_px * px)) return false;
   return look(first ? s.end[0] : s.end[1], at).white >= white_enough;
@@ -100,7 +102,7 @@ bool FieldSight::has_flanks(const GroundPoint& from, float direction, float leng
   const float aside = 0.75F * line_width_ + flank_px * px;
   for (const float side : {1.0F, -1.0F}) {
     int carpet = 0, other = 0;
-    for (int i = 0; i < flank_samples; ++i) {
+    for (int i = 0; i < flank_samples && 2 * carpet < flank_samples && 2 * other <= flank_samples; ++i) {
       const float d = length * (static_cast<float>(i) + 1.0F) / static_cast<float>(flank_samples);
       WorkPoint w;
       const GroundPoint p{from.x + d * out.x - side * aside * out.y, from.y + d * out.y + side * aside * out.x};
@@ -108,11 +110,7 @@ bool FieldSight::has_flanks(const GroundPoint& from, float direction, float leng
       const int x = static_cast<int>(w.u);
       const int y = static_cast<int>(w.v);
       if (x >= rays_.work_width() || y >= rays_.work_height() || field_.lines.get(x, y)) continue;
-      if (field_.carpet.get(x, y)) {
-        ++carpet;
-      } else {
-        ++other;
-      }
+      ++(field_.carpet.get(x, y) ? carpet : other);
     }
     if (other > carpet) return false;
   }

@@ -5,11 +5,20 @@
 namespace touchline {
 namespace {
 
+bool nearly_parallel(const GroundPoint& a, const GroundPoint& b) {
+  constexpr float least = radians(30.0F);
+  constexpr float tan_least = 0.577350269F;
+  constexpr float slack = 1.0e-4F;  // most are told without the angle itself
+  const float across = math::abs(a.x * b.y - a.y * b.x);
+  const float along = tan_least * math::abs(a.x * b.x + a.y * b.y);
+  if (across > (1.0F + slack) * along) return false;
+  return across < (1.0F - slack) * along || line_angle(a, b) < least;
+}
+
 /// `a` is the one whose direction is known better. A short `b` tells where it is better than how it is turned, and
 /// lines of a field are at right angles: its direction is the mean of both, weighted by what they are good for.
 void consider(const JunctionSearch& search, const LineSegment& a, const LineSegment& b) {
-  const float angle = line_angle(a.direction, b.direction);
-  if (angle < radians(30.0F)) return;  // nearly one line: where they cross says nothing
+  if (nearly_parallel(a.direction, b.direction)) return;  // nearly one line: where they cross says nothing
   GroundPoint square{-a.direction.y, a.direction.x};
   if (square.x * b.direction.x + square.y * b.direction.y < 0.0F) square = {-square.x, -square.y};
   const float off = math::atan2(square.x * b.direction.y - square.y * b.direction.x,
@@ -19,8 +28,7 @@ void consider(const JunctionSearch& search, const LineSegment& a, const LineSegm
   const float prior = right_angle_sigma * right_angle_sigma + a.sigma * a.sigma;
   const bool right = math::abs(off) <= tolerance;
   const float turn = right ? off * prior / (prior + sigma_b * sigma_b) : off;
-  const float c = math::cos(turn);
-  const float s = math::sin(turn);
+  const auto [s, c] = math::sin_cos(turn);
   const GroundPoint direction_b{c * square.x - s * square.y, s * square.x + c * square.y};
   // A long one is taken from its end beside the crossing, where what its direction is off matters least.
   const float side[2] = {math::abs(distance_across(a, b.end[0])), math::abs(distance_across(a, b.end[1]))};
@@ -32,6 +40,8 @@ void consider(const JunctionSearch& search, const LineSegment& a, const LineSegm
       ((middle.x - a.end[0].x) * direction_b.y - (middle.y - a.end[0].y) * direction_b.x) / det;  // det is near +-1
   JunctionCandidate found;
   found.ground = {a.end[0].x + t * a.direction.x, a.end[0].y + t * a.direction.y};
+  if (!search.sight.reaches(a, a.direction, found.ground) || !search.sight.reaches(b, direction_b, found.ground))
+    return;
   found.heading = math::atan2(a.direction.y, a.direction.x);
   found.other = math::atan2(direction_b.y, direction_b.x);
   found.off_angle = math::abs(off);
@@ -41,8 +51,6 @@ void consider(const JunctionSearch& search, const LineSegment& a, const LineSegm
   // What it is off from a right angle tells how far thinning has moved its ends.
   const float moved = 0.5F * b.length * math::sin(math::abs(off));
   found.sigma = search.sight.place_sigma(found.ground, a, math::hypot(turned * lever, moved));
-  if (!search.sight.reaches(a, a.direction, found.ground) || !search.sight.reaches(b, direction_b, found.ground))
-    return;
   if (!right) {
     return reject_junction(search, found, 2,
                            a.chain == b.chain ? JunctionRejection::curved : JunctionRejection::bad_angles);

@@ -15,6 +15,9 @@ constexpr float bend_widths = 0.25F;
 // A fork, a foot or a post may lie between two parts of a line.
 constexpr float max_join_gap_m = 0.5F;
 constexpr float join_angle = radians(6.0F);
+constexpr float max_join_angle = radians(30.0F);
+constexpr float sin_max_join_angle = 0.5F;
+constexpr float slack = 1.0001F;  // for what is told without a root or a sine: rounding makes no difference
 
 float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
 
@@ -34,10 +37,22 @@ bool carpet_between(const WorkRays& rays, const FieldView& field, const GroundPo
   return bare > 1 && 3 * bare > steps;
 }
 
+/// Whether the gap between two parts of a line would be too long.
+bool surely_apart(const LineSegment& a, const LineSegment& b) {
+  const float most = slack * slack * math::square(a.length + b.length + max_join_gap_m);
+  for (const GroundPoint& p : a.end) {
+    for (const GroundPoint& q : b.end) {
+      if (math::square(p.x - q.x) + math::square(p.y - q.y) > most) return true;
+    }
+  }
+  return false;
+}
+
 /// Joins `b` to `a` when all four ends lie in one plane and the gap between is short.
 bool join(const WorkRays& rays, const FieldView& field, float line_width_m, LineSegment& a, const LineSegment& b) {
   const float turn = math::abs(a.direction.x * b.direction.y - a.direction.y * b.direction.x);
-  if (turn > math::sin(math::min(join_angle + a.sigma + b.sigma, radians(30.0F)))) return false;
+  if (turn > slack * sin_max_join_angle || surely_apart(a, b)) return false;
+  if (turn > math::sin(math::min(join_angle + a.sigma + b.sigma, max_join_angle))) return false;
   // The longest way between an end of one and an end of the other is the joined line.
   float longest = 0.0F;
   int far_a = 0, far_b = 0;
@@ -73,8 +88,10 @@ bool join(const WorkRays& rays, const FieldView& field, float line_width_m, Line
 
 }  // namespace
 
+float least_line_tolerance(const WorkRays& rays) { return tolerance_px * rays.radians_per_pixel(); }
+
 float line_tolerance(const WorkRays& rays, float line_width_m, float depth) {
-  return tolerance_px * rays.radians_per_pixel() + tolerance_widths * line_width_m / depth;
+  return least_line_tolerance(rays) + tolerance_widths * line_width_m / depth;
 }
 
 bool measure_segment(const WorkRays& rays, float line_width_m, const Vec3& first, const Vec3& last, LineSegment& s) {

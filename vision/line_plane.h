@@ -41,6 +41,8 @@ class PlaneFit {
 
 /// How far a skeleton point may lie off its line, as an angle, seen from `depth` metres.
 float line_tolerance(const WorkRays& rays, float line_width_m, float depth);
+/// Its least, at any depth.
+float least_line_tolerance(const WorkRays& rays);
 
 /// What follows from segment.normal and the rays near its ends; false when it is too short or not on the ground.
 bool measure_segment(const WorkRays& rays, float line_width_m, const Vec3& first, const Vec3& last,

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "vision/line_plane.h"
+#include "vision/pixel_rays.h"
 
 namespace touchline {
 namespace {
@@ -21,7 +22,13 @@ class SegmentFinder {
  public:
   SegmentFinder(const NodeGraphView& graph, const WorkRays& rays, const FieldView& field,
                 const LineSegmentParameters& parameters, std::span<std::uint8_t> edge_done, LineSegments& out)
-      : graph_(graph), rays_(rays), field_(field), parameters_(parameters), edge_done_(edge_done), out_(out) {}
+      : graph_(graph),
+        rays_(rays),
+        pixel_rays_(rays),
+        field_(field),
+        parameters_(parameters),
+        edge_done_(edge_done),
+        out_(out) {}
 
   void run();
 
@@ -37,6 +44,7 @@ class SegmentFinder {
 
   const NodeGraphView& graph_;
   const WorkRays& rays_;
+  PixelRays pixel_rays_;
   const FieldView& field_;
   const LineSegmentParameters& parameters_;
   std::span<std::uint8_t> edge_done_;
@@ -44,7 +52,8 @@ class SegmentFinder {
   std::uint16_t chain_ = 0;
   int stride_ = 1;        // of the chain's points
   int curve_stride_ = 1;  // of the points kept for the circle
-  int seen_ = 0;
+  int to_next_ = 0;       // points of the chain that are skipped before the next
+  int to_next_curve_ = 0;
   bool start_is_fork_ = false;
   bool end_is_fork_ = false;
 };
@@ -79,7 +88,7 @@ void SegmentFinder::run() {
 /// Reads edge after edge through nodes of degree 2, from the end at node `start` (no_node: the free end).
 void SegmentFinder::read_chain(std::uint16_t edge, std::uint16_t start) {
   out_.chain.clear();
-  seen_ = 0;
+  to_next_ = to_next_curve_ = 0;
   start_is_fork_ = start != no_node && graph_.nodes[start].degree > 2;
   std::size_t length = 0;
   for (int pass = 0; pass < 2; ++pass) {  // first the length, so that the points fit
@@ -110,13 +119,14 @@ void SegmentFinder::read_chain(std::uint16_t edge, std::uint16_t start) {
 
 /// Adds a point, or ends the stretch where the ground ends.
 void SegmentFinder::append(GridPoint p, bool& gap) {
-  const int n = seen_++;
-  if (n % stride_ != 0) return;
+  const bool for_curve = to_next_curve_ == 0;
+  to_next_curve_ = (for_curve ? curve_stride_ : to_next_curve_) - 1;
+  const bool taken = to_next_ == 0;
+  to_next_ = (taken ? stride_ : to_next_) - 1;
+  if (!taken) return;
   RayPoint point;
   const GroundProjection& projection = rays_.projection();
-  const WorkPoint centre{static_cast<float>(p.x) + 0.5F, static_cast<float>(p.y) + 0.5F};
-  const bool seen = rays_.ray(centre, point.ray) && projection.intersect_ground(point.ray, point.ground);
-  const float h = projection.pose().height;
+  const bool seen = pixel_rays_.ray(p, point.ray) && projection.intersect_ground(point.ray, point.ground);
   const float range = math::hypot(point.ground.x - projection.pose().x, point.ground.y - projection.pose().y);
   if (!seen || range > parameters_.max_range_m) {
     if (!gap) flush(start_is_fork_, false);
@@ -127,10 +137,7 @@ void SegmentFinder::append(GridPoint p, bool& gap) {
   }
   gap = false;
   out_.chain.push_back(point);
-  if (n % curve_stride_ == 0) {
-    const float per_pixel = (range * range + h * h) / h * rays_.radians_per_pixel();
-    out_.points.push_back({point.ground, per_pixel, chain_});
-  }
+  if (for_curve) out_.points.push_back({point.ground, chain_});
 }
 
 void SegmentFinder::flush(bool start_is_fork, bool end_is_fork) {
@@ -155,10 +162,12 @@ int SegmentFinder::farthest(int first, int last) const {
       last - first > 2 * min_points && dot(across, across) < math::square(3.0F * rays_.radians_per_pixel());
   if (closed) return (first + last) / 2;
   const Vec3 normal = normalized(across);
+  const float least_allowed = least_line_tolerance(rays_);
   float worst = 1.0F;
   int at = -1;
   for (int i = first + 1; i < last; ++i) {
     const float off = math::abs(dot(normal, out_.chain[static_cast<std::size_t>(i)].ray));
+    if (off <= worst * least_allowed) continue;  // most are: their depth, a division each, need not be known
     const float allowed = line_tolerance(rays_, parameters_.line_width_m, depth(i));
     if (off > worst * allowed) {
       worst = off / allowed;

@@ -30,7 +30,6 @@ struct LineSegment {
 /// A skeleton point on the ground, in the order along its chain.
 struct ChainPoint {
   GroundPoint ground;
-  float metres_per_pixel = 0.0F;  // towards and away from the camera, where a pixel means most
   std::uint16_t chain = 0;
 };
 

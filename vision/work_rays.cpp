@@ -7,7 +7,7 @@ WorkRays::WorkRays(const GroundProjection& projection, const RayGridView& grid, 
                    int work_width, int work_height)
     : projection_(projection),
       grid_(grid),
-      robot_from_camera_(robot_from_camera(projection.pose())),
+      robot_from_camera_(touchline::robot_from_camera(projection.pose())),
       per_work_u_(static_cast<float>(frame_width) / static_cast<float>(work_width)),
       per_work_v_(static_cast<float>(frame_height) / static_cast<float>(work_height)),
       radians_per_pixel_(0.5F * (per_work_u_ + per_work_v_) / projection.lens().parameters().focal_px),

@@ -34,6 +34,8 @@ class WorkRays {
   [[nodiscard]] const GroundProjection& projection() const { return projection_; }
   /// Angle that a working pixel means on the optical axis, mean of both directions.
   [[nodiscard]] float radians_per_pixel() const { return radians_per_pixel_; }
+  [[nodiscard]] const RayGridView& grid() const { return grid_; }
+  [[nodiscard]] const Mat3& robot_from_camera() const { return robot_from_camera_; }
   [[nodiscard]] int work_width() const { return work_width_; }
   [[nodiscard]] int work_height() const { return work_height_; }
 

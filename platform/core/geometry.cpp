@@ -3,16 +3,6 @@
 
 namespace touchline {
 
-Vec3 multiply(const Mat3& a, const Vec3& v) {
-  return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z, a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
-          a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
-}
-
-Vec3 multiply_transposed(const Mat3& a, const Vec3& v) {
-  return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
-          a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};
-}
-
 Mat3 multiply(const Mat3& a, const Mat3& b) {
   Mat3 product;
   for (int i = 0; i < 3; ++i) {

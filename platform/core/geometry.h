@@ -47,8 +47,14 @@ struct Sym2 {  // symmetric 2x2, e.g. a covariance in m^2
 };
 
 inline float dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3 multiply(const Mat3& a, const Vec3& v);
-Vec3 multiply_transposed(const Mat3& a, const Vec3& v);
+inline Vec3 multiply(const Mat3& a, const Vec3& v) {
+  return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z, a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
+          a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
+}
+inline Vec3 multiply_transposed(const Mat3& a, const Vec3& v) {
+  return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
+          a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};
+}
 Mat3 multiply(const Mat3& a, const Mat3& b);
 /// Unit vector; the zero vector stays zero.
 Vec3 normalized(const Vec3& v);

@@ -8,10 +8,6 @@
 namespace touchline {
 namespace {
 
-// Sine of the smallest angle below the horizon that still counts as looking at the ground: 1e-4 is 5 km away at a
-// height of half a metre, and rounding of the ray stays a thousandth of it.
-constexpr float min_descent = 1.0e-4F;
-
 constexpr float no_ground_variance = 1.0e6F;  // m^2
 
 Vec3 cross(const Vec3& a, const Vec3& b) {
@@ -55,13 +51,6 @@ bool GroundProjection::robot_ray(const PixelPoint& pixel, Vec3& ray) const {
   Vec3 camera_ray;
   if (!lens_.ray(pixel, camera_ray)) return false;
   ray = multiply(rotation_, camera_ray);
-  return true;
-}
-
-bool GroundProjection::intersect_ground(const Vec3& robot_ray, GroundPoint& point) const {
-  if (!(robot_ray.z < -min_descent) || !(pose_.height > 0.0F)) return false;
-  const float reach = pose_.height / -robot_ray.z;
-  point = {pose_.x + reach * robot_ray.x, pose_.y + reach * robot_ray.y};
   return true;
 }
 

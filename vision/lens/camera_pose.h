@@ -34,7 +34,12 @@ class GroundProjection {
   [[nodiscard]] bool robot_ray(const PixelPoint& pixel, Vec3& ray) const;
   /// The ground point where a ray of the robot's axes, from the camera, meets the carpet; false at or above the
   /// horizon.
-  [[nodiscard]] bool intersect_ground(const Vec3& robot_ray, GroundPoint& point) const;
+  [[nodiscard]] bool intersect_ground(const Vec3& robot_ray, GroundPoint& point) const {
+    if (!(robot_ray.z < -min_descent) || !(pose_.height > 0.0F)) return false;
+    const float reach = pose_.height / -robot_ray.z;
+    point = {pose_.x + reach * robot_ray.x, pose_.y + reach * robot_ray.y};
+    return true;
+  }
   /// False when the point lies beyond the lens.
   [[nodiscard]] bool pixel(const GroundPoint& point, PixelPoint& pixel) const;
   /// Likewise for a point `z` metres above the carpet.
@@ -47,6 +52,10 @@ class GroundProjection {
   [[nodiscard]] const Lens& lens() const { return lens_; }
 
  private:
+  // Sine of the smallest angle below the horizon that still counts as looking at the ground: 1e-4 is 5 km away at a
+  // height of half a metre, and rounding of the ray stays a thousandth of it.
+  static constexpr float min_descent = 1.0e-4F;
+
   [[nodiscard]] Vec3 ray_slope(const PixelPoint& pixel, const Vec3& centre, float du, float dv) const;
 
   Lens lens_{};
