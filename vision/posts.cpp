@@ -3,6 +3,10 @@
 
 #include <bit>
 
+#include "platform/core/atan2_lanes.h"
+#include "vision/image/bit_ops.h"
+#include "vision/pixel_rays.h"
+
 namespace touchline {
 namespace {
 
@@ -25,6 +29,29 @@ struct Column {
   int last = -1;
 };
 
+/// Rays of some pixels, side by side for vectors, and what follows from them.
+struct RayBatch {
+  static constexpr int most = 64;
+  int count = 0;
+  float x[most], y[most], z[most];
+  float depression[most];
+  int level[most], bin[most];
+
+  void add(const Vec3& ray) {
+    x[count] = ray.x;
+    y[count] = ray.y;
+    z[count] = ray.z;
+    ++count;
+  }
+  void measure() {
+    for (int i = 0; i < count; ++i) {
+      depression[i] = math::atan2_lane(-z[i], math::hypot(x[i], y[i]));
+      level[i] = static_cast<int>((lowest - depression[i]) / level_height);
+      bin[i] = static_cast<int>((math::atan2_lane(y[i], x[i]) + math::pi) / bin_width);
+    }
+  }
+};
+
 class PostFinder {
  public:
   PostFinder(const WorkRays& rays, const FieldView& field, const PostParameters& parameters, PostWork& work,
@@ -35,9 +62,18 @@ class PostFinder {
   void group();
 
  private:
+  void take(RayBatch& batch);
   [[nodiscard]] PostWork::Bin& bin(int i) { return work_.bins[static_cast<std::size_t>(i % post_bins)]; }
   [[nodiscard]] std::uint64_t filled(int i);
   [[nodiscard]] Column column(int i);
+  /// Depression of the lower end of a level.
+  [[nodiscard]] static float level_bottom(int level) { return lowest - static_cast<float>(level) * level_height; }
+  /// Its tangent. Azimuths beside each other begin and end at the same few levels.
+  [[nodiscard]] float slope(int level) {
+    float& known = slopes_[static_cast<std::size_t>(level)];
+    if (known == 0.0F) known = math::tan(math::min(level_bottom(level), radians(80.0F)));
+    return known;
+  }
   [[nodiscard]] bool leaves_picture(int i, float distance, float reached) const;
   void judge(int first, int last);
   [[nodiscard]] bool stands_on_carpet(float azimuth, float front) const;
@@ -48,27 +84,33 @@ class PostFinder {
   const PostParameters& parameters_;
   PostWork& work_;
   StaticVector<PostObservation, max_posts>& posts_;
+  std::array<float, post_levels + 1> slopes_{};  // 0: not known yet
 };
 
 /// Every pixel of the colour to its azimuth and elevation.
 void PostFinder::sort(ConstBitView colour) {
   work_.bins.fill({});
-  for (int y = 0; y < colour.height; ++y) {
-    for (int w = 0; w < words_for(colour.width); ++w) {
-      for (BitWord rest = colour.row(y)[w]; rest != 0; rest &= rest - 1) {
-        const int x = w * bits_per_word + std::countr_zero(rest);
-        Vec3 ray;
-        if (!rays_.ray({static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F}, ray)) continue;
-        const float depression = math::atan2(-ray.z, math::hypot(ray.x, ray.y));
-        const int level = static_cast<int>((lowest - depression) / level_height);
-        if (level < 0 || level >= post_levels) continue;
-        const float azimuth = math::atan2(ray.y, ray.x) + math::pi;
-        PostWork::Bin& b = bin(static_cast<int>(azimuth / bin_width));
-        b.levels |= std::uint64_t{1} << level;
-        b.depression = math::max(b.depression, depression);
-      }
-    }
+  PixelRays rays(rays_);
+  RayBatch batch;
+  for_each_set_bit(colour, [&](int x, int y) {
+    Vec3 ray;
+    if (!rays.ray({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)}, ray)) return;
+    batch.add(ray);
+    if (batch.count == RayBatch::most) take(batch);
+  });
+  take(batch);
+}
+
+void PostFinder::take(RayBatch& batch) {
+  batch.measure();
+  for (int i = 0; i < batch.count; ++i) {
+    const int level = batch.level[i];
+    if (level < 0 || level >= post_levels) continue;
+    PostWork::Bin& b = bin(batch.bin[i]);
+    b.levels |= std::uint64_t{1} << level;
+    b.depression = math::max(b.depression, batch.depression[i]);
   }
+  batch.count = 0;
 }
 
 /// A column with the gaps closed that come from pixels wider than a bin and levels finer than pixels.
@@ -86,11 +128,9 @@ Column PostFinder::column(int i) {
   Column c;
   c.first = std::countr_zero(levels);
   c.last = c.first + std::countr_one(levels >> c.first) - 1;
-  const float foot = lowest - static_cast<float>(c.first) * level_height;  // depression
-  if (foot < min_depression) return {};
-  const float distance = height() / math::tan(math::min(foot, radians(80.0F)));
-  const float top = lowest - static_cast<float>(c.last + 1) * level_height;
-  const float reached = top > radians(-80.0F) ? height() - distance * math::tan(math::min(top, radians(80.0F))) : 10.0F;
+  if (level_bottom(c.first) < min_depression) return {};
+  const float distance = height() / slope(c.first);
+  const float reached = level_bottom(c.last + 1) > radians(-80.0F) ? height() - distance * slope(c.last + 1) : 10.0F;
   if (reached < min_cut_height_m) return {};
   if (reached < min_height_m && !leaves_picture(i, distance, reached)) return {};
   return c;

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "platform/core/angle.h"
+#include "platform/core/atan2_lanes.h"
 
 namespace touchline::math {
 namespace {
@@ -30,12 +31,6 @@ float cos_polynomial(float x) {
   const float z = x * x;
   const float tail = z * z * (4.166664686642e-2F + z * (-1.388736751474e-3F + z * 2.443845149276e-5F));
   return 1.0F - (0.5F * z - tail);
-}
-
-// On [-tan(pi/8), tan(pi/8)]; relative error of the fit 2e-8.
-float atan_polynomial(float x) {
-  const float z = x * x;
-  return x + x * z * (-0.333329552537F + z * (0.19977926086F + z * (-0.138798500442F + z * 8.0603091266e-2F)));
 }
 
 std::int32_t nearest_integer(float x) { return static_cast<std::int32_t>(x < 0.0F ? x - 0.5F : x + 0.5F); }
@@ -67,22 +62,7 @@ float tan(float radians) {
   return both.sin / both.cos;
 }
 
-float atan2(float y, float x) {
-  constexpr float tan_pi_8 = 0.414213562F;
-  const float ax = abs(x);
-  const float ay = abs(y);
-  const float low = min(ax, ay);
-  const float high = max(ax, ay);
-  if (x != x || y != y) return x + y;
-  if (high == 0.0F) return 0.0F;
-  // atan(low / high), moved by pi/4 where the ratio is too large for the polynomial.
-  float angle = low > tan_pi_8 * high ? 0.5F * half_pi + atan_polynomial((low - high) / (low + high))
-                                      : atan_polynomial(low / high);
-  if (ay > ax) angle = half_pi - angle;
-  if (x < 0.0F) angle = pi - angle;
-  // -pi itself is outside the range, and minus zero is zero.
-  return y < 0.0F && angle < pi ? -angle : angle;
-}
+float atan2(float y, float x) { return atan2_lane(y, x); }
 
 float atan(float x) {
   if (abs(x) > 3.0e38F) return x < 0.0F ? -half_pi : half_pi;
