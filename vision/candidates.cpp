@@ -4,58 +4,44 @@
 #include <algorithm>
 
 #include "vision/image/bit_ops.h"
-#include "vision/image/morphology.h"
 
 namespace touchline {
 namespace {
 
-constexpr int zone_block_px = 8;
+constexpr int zone_px = 4;
 
-/// Of each byte that has a bit, all bits.
-BitWord filled_bytes(BitWord word) {
-  constexpr BitWord low = 0x7F7F7F7F7F7F7F7FU;
-  const BitWord tops = (((word & low) + low) | word) & ~low;
-  return tops | (tops - (tops >> 7));
+/// The pixels of a word in whose row, or the one above or below, a mask has a pixel in the same or the next column.
+BitWord beside(ConstBitView mask, int y, int i) {
+  const int words = words_for(mask.width);
+  BitWord here = 0, before = 0, after = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, mask.height - 1); ++v) {
+    const BitWord* row = mask.row(v);
+    here |= row[i];
+    if (i > 0) before |= row[i - 1];
+    if (i + 1 < words) after |= row[i + 1];
+  }
+  return here | here << 1 | here >> 1 | before >> (bits_per_word - 1) | after << (bits_per_word - 1);
 }
 
-/// Rows of blocks of 8x8 pixels, from the top: the blocks in which, or in whose eight neighbours, a mask has a pixel.
-class NearBlocks {
- public:
-  explicit NearBlocks(ConstBitView mask) : mask_(mask) { read(0, row(0)); }
-  void next() {
-    ++row_;
-    read(row_ + 1, row(row_ + 1));
+/// Adds to a mask all that lies within zone_px of the pixels of a word.
+void add_surroundings(BitWord word, int y, int i, BitView mask) {
+  BitWord here = word | word << 1 | word >> 1;
+  here |= here << 1 | here >> 1;
+  here |= here << 2 | here >> 2;
+  BitWord left = 0, right = 0;  // what lies in the words beside it
+  for (int k = 1; k <= zone_px; ++k) {
+    left |= word << (bits_per_word - k);
+    right |= word >> (bits_per_word - k);
   }
-  [[nodiscard]] BitWord word(int i) {
-    const auto at = static_cast<std::size_t>(i);
-    return row(row_ + 2)[at] | row(row_)[at] | row(row_ + 1)[at];
+  const bool has_left = left != 0 && i > 0;
+  const bool has_right = right != 0 && i + 1 < words_for(mask.width);
+  for (int v = std::max(y - zone_px, 0); v <= std::min(y + zone_px, mask.height - 1); ++v) {
+    BitWord* row = mask.row(v);
+    row[i] |= here;
+    if (has_left) row[i - 1] |= left;
+    if (has_right) row[i + 1] |= right;
   }
-
- private:
-  using Row = std::array<BitWord, words_for(max_mask_width)>;
-  Row& row(int number) { return rows_[static_cast<std::size_t>(number % 3)]; }
-
-  /// One row of blocks, grown by one on either side.
-  void read(int number, Row& out) {
-    const int words = words_for(mask_.width);
-    Row any{};
-    for (int y = number * zone_block_px; y < std::min((number + 1) * zone_block_px, mask_.height); ++y) {
-      for (int i = 0; i < words; ++i) any[static_cast<std::size_t>(i)] |= mask_.row(y)[i];
-    }
-    BitWord before = 0;
-    for (int i = 0; i < words; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const BitWord here = filled_bytes(any[at]);
-      const BitWord after = i + 1 < words ? filled_bytes(any[at + 1]) : 0;
-      out[at] = here | here << 8 | here >> 8 | before >> 56 | after << 56;
-      before = here;
-    }
-  }
-
-  ConstBitView mask_;
-  int row_ = -1;  // in the middle of the three; the one above the first is empty
-  std::array<Row, 3> rows_{};
-};
+}
 
 }  // namespace
 
@@ -79,19 +65,17 @@ CannyThresholds edge_thresholds(const CarpetModel& carpet) {
   return {low, 2 * low};
 }
 
-void find_edge_zone(ConstBitView white, ConstBitView green, BitView zone) {
-  assert(zone.width <= max_mask_width);
-  const int words = words_for(zone.width);
-  NearBlocks near_white(white), near_green(green);
-  for (int y0 = 0; y0 < zone.height; y0 += zone_block_px) {
-    near_white.next();
-    near_green.next();
-    for (int i = 0; i < words; ++i) {
-      BitWord bits = near_white.word(i) & near_green.word(i);
-      if (i == words - 1) bits &= last_word_mask(zone.width);
-      for (int y = y0; y < std::min(y0 + zone_block_px, zone.height); ++y) zone.row(y)[i] = bits;
+void find_edge_zone(ConstBitView white, ConstBitView region, ConstBitView lines, BitView zone) {
+  clear(zone);
+  for (int y = 0; y < zone.height; ++y) {
+    for (int i = 0; i < words_for(zone.width); ++i) {
+      const BitWord word = white.row(y)[i] & region.row(y)[i];
+      if (word == 0) continue;
+      const BitWord open = word & ~beside(lines, y, i);
+      if (open != 0) add_surroundings(open, y, i, zone);
     }
   }
+  and_with(zone, region);
 }
 
 }  // namespace touchline

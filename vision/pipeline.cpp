@@ -167,11 +167,10 @@ void Pipeline::find_candidates(VisionResult& result) {
   find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates,
                     views_.mask(MaskId::scratch), config_.kernels);
   const BitView& edges = views_.mask(MaskId::edges);
-  // An edge that no line can have is not looked for. The line mask is made later: its memory is free.
-  const BitView& near_lines = views_.mask(MaskId::line_mask);
-  find_edge_zone(views_.mask(MaskId::white), views_.mask(MaskId::green), near_lines);
-  and_with(near_lines, roi);
-  const GrowResult grown = find_edges(result.mean.y, near_lines, edge_thresholds(carpet_), memory_.canny,
+  // An edge beside a line that is found already adds nothing. The line mask is made later: its memory is free.
+  const BitView& zone = views_.mask(MaskId::line_mask);
+  find_edge_zone(views_.mask(MaskId::white), roi, candidates, zone);
+  const GrowResult grown = find_edges(result.mean.y, zone, edge_thresholds(carpet_), memory_.canny,
                                       views_.mask(MaskId::scratch), edges, config_.kernels);
   if (!grown.finished) ++result.counts.dropped_edge_seeds;
   const EdgeInput input{result.mean.y,      edges,          views_.mask(MaskId::green), views_.mask(MaskId::white),

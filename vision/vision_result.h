@@ -49,7 +49,7 @@ struct VisionResult {
   ConstBitView field;               // the largest blob
   std::span<const GridPoint> hull;  // of the largest blob
   ConstBitView roi;
-  ConstBitView edges;       // Canny's, all of them
+  ConstBitView edges;       // Canny's, near white that white search left open
   ConstBitView candidates;  // white search united with Canny
   ConstBitView line_mask;
   ConstBitView skeleton;

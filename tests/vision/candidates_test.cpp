@@ -86,21 +86,30 @@ TEST_CASE("each reason has a name") {
   }
 }
 
-TEST_CASE("edges are looked for in blocks with white and green in or beside them, and nowhere else") {
+TEST_CASE("edges are looked for within four pixels of white of the region that no line is at or beside") {
   for (const auto& [w, h] : {std::pair{150, 43}, {64, 8}, {65, 17}, {7, 3}}) {
-    const Bits white = random_bits(w, h, 1, 1), green = random_bits(w, h, 1, 2);
-    const auto near = [&](const Bits& mask, int x, int y) {
-      for (int v = y / 8 * 8 - 8; v < y / 8 * 8 + 16; ++v) {
-        for (int u = x / 8 * 8 - 8; u < x / 8 * 8 + 16; ++u) {
-          if (mask.view().get(u, v)) return true;
+    const Bits white = random_bits(w, h, 2, 1), region = random_bits(w, h, 70, 2), lines = random_bits(w, h, 3, 3);
+    const auto any_near = [](int x, int y, int reach, const auto& what) {
+      for (int v = y - reach; v <= y + reach; ++v) {
+        for (int u = x - reach; u <= x + reach; ++u) {
+          if (what(u, v)) return true;
         }
       }
       return false;
     };
+    const auto line = [&](int x, int y) { return lines.view().get(x, y); };
+    const auto open = [&](int x, int y) {
+      return white.view().get(x, y) && region.view().get(x, y) && !any_near(x, y, 1, line);
+    };
     Bits zone(w, h);
-    find_edge_zone(white.view(), green.view(), zone.view());
+    fill(zone.view());  // nothing of it stays
+    find_edge_zone(white.view(), region.view(), lines.view(), zone.view());
     for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) REQUIRE(zone.view().get(x, y) == (near(white, x, y) && near(green, x, y)));
+      for (int x = 0; x < w; ++x) {
+        CAPTURE(x);
+        CAPTURE(y);
+        REQUIRE(zone.view().get(x, y) == (region.view().get(x, y) && any_near(x, y, 4, open)));
+      }
     }
     CHECK(padding_is_clear(zone.view()));
   }
