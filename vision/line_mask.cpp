@@ -78,29 +78,34 @@ BitWord below_half_level(ImageView<const std::uint8_t> luma, int x0, int y, BitW
   return below;
 }
 
-/// One pass over the border: pixels that lack a neighbour in their row or column. What was `tested` before stays, and
-/// what is tested now and stays is added to it.
-void trim_border(ImageView<const std::uint8_t> luma, BitView lines, BitView tested) {
+/// Sets of the pixels of `lines` those below half level.
+void mark_below_half_level(ImageView<const std::uint8_t> luma, ConstBitView lines, BitView below) {
+  for (int y = 0; y < lines.height; ++y) {
+    for (int i = 0; i < words_for(lines.width); ++i) {
+      const BitWord word = lines.row(y)[i];
+      below.row(y)[i] = word == 0 ? 0 : below_half_level(luma, i * bits_per_word, y, word);
+    }
+  }
+}
+
+/// Takes off the pixels that are `below` and lack a neighbour in their row or column.
+void trim_border(ConstBitView below, BitView lines) {
   using Row = std::array<BitWord, words_for(max_mask_width)>;
   const int words = words_for(lines.width);
-  const auto copy_row = [&](int y, Row& row) { std::copy_n(lines.row(y), words, row.begin()); };
   Row rows[2] = {};  // the one above, and this one, as they were before
   for (int y = 0; y < lines.height; ++y) {
     const Row& above = rows[(y + 1) % 2];
     Row& here = rows[y % 2];
-    copy_row(y, here);
+    std::copy_n(lines.row(y), words, here.begin());
     for (int i = 0; i < words; ++i) {
+      const BitWord dark = below.row(y)[i];
+      if (dark == 0) continue;
       const auto at = static_cast<std::size_t>(i);
-      const BitWord word = here[at];
-      if (word == 0) continue;
-      BitWord inner = word << 1 | word_before(here.data(), i) >> (bits_per_word - 1);
-      inner &= word >> 1 | word_after(here.data(), i, words) << (bits_per_word - 1);
+      BitWord inner = here[at] << 1 | word_before(here.data(), i) >> (bits_per_word - 1);
+      inner &= here[at] >> 1 | word_after(here.data(), i, words) << (bits_per_word - 1);
       inner &= above[at];
       inner &= y + 1 < lines.height ? lines.row(y + 1)[i] : 0;
-      const BitWord border = word & ~inner & ~tested.row(y)[i];
-      if (border == 0) continue;
-      lines.row(y)[i] &= ~below_half_level(luma, i * bits_per_word, y, border);
-      tested.row(y)[i] |= border;
+      lines.row(y)[i] &= ~dark | inner;
     }
   }
 }
@@ -116,8 +121,8 @@ int widest(LineWidthView widths, int block_y) {
 
 void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch) {
   assert(lines.width <= max_mask_width);
-  clear(scratch);
-  for (int pass = 0; pass < 2; ++pass) trim_border(luma, lines, scratch);
+  mark_below_half_level(luma, lines, scratch);
+  for (int pass = 0; pass < 2; ++pass) trim_border(scratch, lines);
 }
 
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch) {

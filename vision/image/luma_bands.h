@@ -29,6 +29,7 @@ struct HsvBandPlan {
   std::int32_t value_low = 0, value_high = 0;
   LumaBand neutral;   // for gray, which has no hue
   bool rare = false;  // no gray, and a sixth of the hues at the most: it pays to look whether any sample has one
+  std::int32_t least_chroma = 0;  // of |cb| and |cr| the larger is at least this, whatever the luma; at least 1 if rare
 };
 
 /// What white must have more of than the carpet (green.h): the least luma for a chroma sample; there is no largest.

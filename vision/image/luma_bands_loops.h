@@ -5,7 +5,7 @@
 
 #include "vision/image/luma_bands.h"
 
-#if defined(__AVX2__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -50,6 +50,49 @@ struct Offsets {
     any |= ~(f.from.a * b + f.from.b * r) & (f.to.a * b + f.to.b * r);  // the signs alone
   }
   return any < 0;
+}
+
+#if defined(__SSE2__)
+/// False when none of a word's samples has a colour of the range: a first look. The half planes' numbers are below 2^16
+/// (HsvFilter::at_hue), so their halves fit into lanes of 16 bits, and what the halving loses of the sum is at most
+/// 128.
+[[gnu::always_inline]] inline bool may_have_hue(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr) {
+  const auto halves = [](const ChromaHalfPlane& plane) {
+    return _mm_set1_epi32(static_cast<int>((static_cast<std::uint32_t>(plane.a >> 1) & 0xFFFFU) |
+                                           static_cast<std::uint32_t>(plane.b >> 1) << 16));
+  };
+  const __m128i from = halves(f.from), to = halves(f.to);
+  const __m128i zero = _mm_setzero_si128(), grey = _mm_set1_epi16(128);
+  const __m128i pale = _mm_set1_epi16(static_cast<short>(f.least_chroma - 1));
+  const __m128i slack = _mm_set1_epi32(128), below_slack = _mm_set1_epi32(-129);
+  __m128i any = zero;
+  const auto look = [&](__m128i bytes) __attribute__((always_inline)) {  // cb, cr of four samples
+    const __m128i pairs = _mm_sub_epi16(bytes, grey);
+    const __m128i strong = _mm_cmpgt_epi16(_mm_max_epi16(pairs, _mm_sub_epi16(zero, pairs)), pale);
+    const __m128i inside = _mm_and_si128(_mm_cmpgt_epi32(_mm_madd_epi16(pairs, from), below_slack),
+                                         _mm_cmpgt_epi32(slack, _mm_madd_epi16(pairs, to)));
+    any = _mm_or_si128(any, _mm_andnot_si128(_mm_cmpeq_epi32(strong, zero), inside));
+  };
+  const auto look_at_eight = [&](__m128i bytes) __attribute__((always_inline)) {
+    look(_mm_unpacklo_epi8(bytes, zero));
+    look(_mm_unpackhi_epi8(bytes, zero));
+  };
+  for (int i = 0; i < word_samples; i += 16) {
+    const __m128i b = _mm_loadu_si128(reinterpret_cast<const __m128i*>(cb + i));
+    const __m128i r = _mm_loadu_si128(reinterpret_cast<const __m128i*>(cr + i));
+    look_at_eight(_mm_unpacklo_epi8(b, r));
+    look_at_eight(_mm_unpackhi_epi8(b, r));
+  }
+  return _mm_movemask_epi8(any) != 0;
+}
+#endif
+
+[[gnu::always_inline]] inline bool has_hue(const HsvBandPlan& f, const std::uint8_t* cb, const std::uint8_t* cr,
+                                           int count) {
+#if defined(__SSE2__)
+  if (count == word_samples) return may_have_hue(f, cb, cr);
+#endif
+  return any_of_hue(f, cb, cr, count);
 }
 
 /// No branch in the loop, so that it vectorises.
@@ -177,7 +220,7 @@ inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const BandRows r = rows;
   in_rows(
       r, [&f, &r ](int first, int count, std::uint8_t* low, std::uint8_t* high) __attribute__((always_inline)) {
-        if (f.rare && !any_of_hue(f, r.cb + first, r.cr + first, count)) {
+        if (f.rare && !has_hue(f, r.cb + first, r.cr + first, count)) {
           for (int i = 0; i < word_samples; ++i) low[i] = 255;
           for (int i = 0; i < word_samples; ++i) high[i] = 0;
           return;
