@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // White search, far and worn lines: what stands out from the green on both sides, eight pixels at once.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -17,22 +16,21 @@ static_assert(width_block_px == ridge_block_px && max_ridge_px + 2 <= max_ridge_
 constexpr std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
 
 /// Steps to both sides at which a line of the block's width is left behind, whatever its slant: from the right angle to
-/// 45 degrees in the image. One and a half pixels more for the blur.
-struct Reaches {
-  std::array<int, 3> px{};
+/// 45 degrees in the image. One and a half pixels more for the blur. Returns how many.
+int find_reaches(unsigned across, unsigned slanted, int (&reaches)[max_ridge_looks]) {
+  constexpr unsigned farthest = max_ridge_px + 2;
+  const unsigned narrow = std::min(across, slanted);
+  const unsigned candidates[max_ridge_looks] = {(narrow * 19 / 16 + 32) / 16, ((narrow + slanted) / 2 + 32) / 16,
+                                                (slanted + 32) / 16};
   int count = 0;
-};
-Reaches reaches_for(std::uint16_t across, std::uint16_t slanted) {
-  Reaches reaches;
-  if (slanted == 0) return reaches;
-  const auto narrow = std::min(across, slanted);
-  const int candidates[3] = {(narrow * 19 / 16 + 32) / 16, ((narrow + slanted) / 2 + 32) / 16, (slanted + 32) / 16};
-  for (const int reach : candidates) {
-    if (reach > max_ridge_px + 2) break;
-    if (reaches.count > 0 && reaches.px[static_cast<std::size_t>(reaches.count - 1)] == reach) continue;
-    reaches.px[static_cast<std::size_t>(reaches.count++)] = reach;
+  unsigned last = 0;
+  for (const unsigned reach : candidates) {
+    if (reach > farthest) break;
+    if (reach == last) continue;
+    reaches[count++] = static_cast<int>(reach);
+    last = reach;
   }
-  return reaches;
+  return count;
 }
 
 /// Eight rows of eight bits of a mask from (x, y) on, wherever that is: bit 8 y + x; zero beyond the image.
@@ -69,6 +67,17 @@ BitWord block_bits(ConstBitView mask, int x, int y) {
   }
   return BitWord{halves[0]} | BitWord{halves[1]} << 32;
 }
+/// Eight blocks beside each other, from eight rows of a word: byte c of row r becomes byte r of block c.
+void rows_to_blocks(BitWord (&words)[ridge_block_px]) {
+  const auto swap = [&words](int i, int k, int shift, BitWord low) {
+    const BitWord t = (words[i] >> shift ^ words[k]) & low;
+    words[k] ^= t;
+    words[i] ^= t << shift;
+  };
+  for (int i = 0; i < 4; ++i) swap(i, i + 4, 32, 0x00000000FFFFFFFFU);
+  for (const int i : {0, 1, 4, 5}) swap(i, i + 2, 16, 0x0000FFFF0000FFFFU);
+  for (const int i : {0, 2, 4, 6}) swap(i, i + 1, 8, 0x00FF00FF00FF00FFU);
+}
 /// x and y are multiples of eight.
 void add_block(BitView mask, int x, int y, BitWord bits) {
   std::uint8_t rows[ridge_block_px];
@@ -104,41 +113,38 @@ class RidgeSearch {
   RidgeSearch(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, const CarpetModel& carpet,
               BitView strong, BitView weak, const Kernels& kernels)
       : image_(image), roi_(roi), green_(green), carpet_(carpet), strong_(strong), weak_(weak), kernels_(kernels) {
+    block_.luma = image.y.data;
+    block_.stride = image.y.stride;
+    block_.width = image.y.width;
+    block_.height = image.y.height;
     // The difference of two sums of weight 4 has sqrt(12) of the noise of one luma: 3 and 1.5 sigma, and one grey
     // level.
-    strong_margin_ = static_cast<std::int16_t>(carpet.noise * 2 / 3 + 4);
-    weak_margin_ = static_cast<std::int16_t>(carpet.noise / 3 + 4);
+    block_.strong_margin = static_cast<std::int16_t>(carpet.noise * 2 / 3 + 4);
+    block_.weak_margin = static_cast<std::int16_t>(carpet.noise / 3 + 4);
   }
 
-  /// One block of the width table: all its pixels share the reaches.
-  void search_block(int block_x, int block_y, const LineWidth& width) const {
-    if (width.slanted == 0) return;  // no ground there
-    const int x0 = block_x * width_block_px;
+  /// A row of blocks of the width table.
+  void search_row(int block_y, LineWidthView widths) {
     const int y0 = block_y * width_block_px;
-    // What is a line already stays one.
-    const BitWord wanted = block_bits(roi_, x0, y0) & ~block_bits(strong_, x0, y0) & inner_block(roi_, x0, y0, 1, 1);
-    if (wanted == 0) return;
-    const Reaches along_row = reaches_for(width.across_row, width.slanted);
-    const Reaches along_column = reaches_for(width.across_column, width.slanted);
-    RidgeBlock block{image_.y.data,   image_.y.stride,    image_.y.width, image_.y.height, x0, y0, {}, {},
-                     along_row.count, along_column.count, weak_margin_,   strong_margin_};
-    for (std::size_t k = 0; k < along_row.px.size(); ++k) {
-      block.row_reach[k] = along_row.px[k];
-      block.column_reach[k] = along_column.px[k];
+    const int rows = std::min(roi_.height - y0, ridge_block_px);
+    for (int i = 0; i < words_for(roi_.width); ++i) {
+      // What is a line already stays one.
+      BitWord wanted[ridge_block_px] = {};
+      BitWord any = 0;
+      for (int r = 0; r < rows; ++r) {
+        wanted[r] = roi_.row(y0 + r)[i] & ~static_cast<ConstBitView>(strong_).row(y0 + r)[i];
+        any |= wanted[r];
+      }
+      if (any == 0) continue;
+      rows_to_blocks(wanted);
+      const int first = i * ridge_block_px;  // as many blocks a word as bytes
+      for (int k = 0; k < std::min(widths.width - first, ridge_block_px); ++k) {
+        const BitWord inside = inner_block(roi_, (first + k) * width_block_px, y0, 1, 1);
+        if ((wanted[k] & inside) != 0) {
+          search_block((first + k) * width_block_px, y0, widths.at(first + k, block_y), wanted[k] & inside);
+        }
+      }
     }
-    RidgeBits bits;
-    kernels_.find_ridges(block, bits);
-    Found found;
-    for (int k = 0; k < along_row.count; ++k) {
-      look({x0, y0, along_row.px[static_cast<std::size_t>(k)], 0}, wanted, bits.row_weak[k], bits.row_strong[k], found);
-    }
-    for (int k = 0; k < along_column.count; ++k) {
-      look({x0, y0, 0, along_column.px[static_cast<std::size_t>(k)]}, wanted, bits.column_weak[k],
-           bits.column_strong[k], found);
-    }
-    if (found.weak == 0) return;
-    add_block(strong_, x0, y0, found.strong);
-    add_block(weak_, x0, y0, found.weak);
   }
 
  private:
@@ -149,10 +155,34 @@ class RidgeSearch {
     int x0, y0, dx, dy;
   };
 
+  /// One block of the width table: all its pixels share the reaches.
+  void search_block(int x0, int y0, const LineWidth& width, BitWord wanted) {
+    if (width.slanted == 0) return;  // no ground there
+    block_.row_looks = find_reaches(width.across_row, width.slanted, block_.row_reach);
+    block_.column_looks = find_reaches(width.across_column, width.slanted, block_.column_reach);
+    if (block_.row_looks + block_.column_looks == 0) return;
+    block_.x0 = x0;
+    block_.y0 = y0;
+    RidgeBits bits;
+    kernels_.find_ridges(block_, bits);
+    Found found;
+    for (int k = 0; k < block_.row_looks; ++k) {
+      const BitWord weak = bits.row_weak[k] & wanted;
+      if (weak != 0) look({x0, y0, block_.row_reach[k], 0}, weak, bits.row_strong[k], found);
+    }
+    for (int k = 0; k < block_.column_looks; ++k) {
+      const BitWord weak = bits.column_weak[k] & wanted;
+      if (weak != 0) look({x0, y0, 0, block_.column_reach[k]}, weak, bits.column_strong[k], found);
+    }
+    if (found.weak == 0) return;
+    add_block(strong_, x0, y0, found.strong);
+    add_block(weak_, x0, y0, found.weak);
+  }
+
   /// Of those that are bright enough, the ones between green on both sides that are whiter than these.
-  void look(const Look& at, BitWord wanted, BitWord weak, BitWord strong, Found& found) const {
+  void look(const Look& at, BitWord weak, BitWord strong, Found& found) const {
     // Where one is found already and cannot become more, there is nothing to learn.
-    BitWord left = weak & wanted & ~(found.strong | (found.weak & ~strong));
+    BitWord left = weak & ~(found.strong | (found.weak & ~strong));
     if (left == 0) return;
     left &= inner_block(roi_, at.x0, at.y0, at.dx != 0 ? at.dx : 1, at.dy != 0 ? at.dy + 1 : 1);
     left &= block_bits(green_, at.x0 - at.dx, at.y0 - at.dy) & block_bits(green_, at.x0 + at.dx, at.y0 + at.dy);
@@ -196,8 +226,7 @@ class RidgeSearch {
   BitView strong_;
   BitView weak_;
   const Kernels& kernels_;
-  std::int16_t strong_margin_ = 0;
-  std::int16_t weak_margin_ = 0;
+  RidgeBlock block_;
 };
 
 }  // namespace
@@ -206,10 +235,8 @@ GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, Con
                              const CarpetModel& carpet, BitView lines, BitView scratch, const Kernels& kernels) {
   if (carpet.samples == 0) return {};
   copy(lines, scratch);
-  const RidgeSearch search(image, roi, green, carpet, lines, scratch, kernels);
-  for (int by = 0; by < widths.height; ++by) {
-    for (int bx = 0; bx < widths.width; ++bx) search.search_block(bx, by, widths.at(bx, by));
-  }
+  RidgeSearch search(image, roi, green, carpet, lines, scratch, kernels);
+  for (int y = 0; y < widths.height; ++y) search.search_row(y, widths);
   return grow_inside(lines, scratch);
 }
 

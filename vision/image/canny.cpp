@@ -216,7 +216,9 @@ void gradient_row(const Loops& loops, const RollingRows& rows, ConstBitView roi,
   });
   repeat_ends(rows.column_sums(), width);
   repeat_ends(rows.column_steps(), width);
+  const Blocks reached = blocks | blocks << 1 | blocks >> 1;
   for (int i = 0; i < words_for(width); ++i) {
+    if ((reached >> (2 * i) & 3U) == 0) continue;
     const BitWord near = near_region(roi, y, i);
     if (near == 0) continue;
     // Half by half, each with one column of the other.

@@ -70,11 +70,26 @@ bool take_over(BitWord* seeds, const BitWord* mask, const BitWord* neighbour, in
   return any != 0;
 }
 
-/// From row `from` in steps of `step`. True when something was added.
-bool sweep(BitView seeds, ConstBitView mask, int from, int step) {
+/// Whether a row has pixels that could be filled yet.
+bool is_open(const BitWord* seeds, const BitWord* mask, int words) {
+  BitWord open = 0;
+  for (int i = 0; i < words; ++i) open |= mask[i] & ~seeds[i];
+  return open != 0;
+}
+
+/// Rows that may be open.
+struct OpenRows {
+  int first = 0;
+  int last = -1;
+};
+
+/// Down or up. True when something was added.
+bool sweep(BitView seeds, ConstBitView mask, const OpenRows& rows, bool down) {
   const int words = words_for(mask.width);
+  const int step = down ? 1 : -1;
   bool any = false;
-  for (int y = from + step; y >= 0 && y < mask.height; y += step) {
+  for (int y = down ? rows.first : rows.last; y >= rows.first && y <= rows.last; y += step) {
+    if (y - step < 0 || y - step >= mask.height || !is_open(seeds.row(y), mask.row(y), words)) continue;
     if (!take_over(seeds.row(y), mask.row(y), seeds.row(y - step), words)) continue;
     fill_runs(seeds.row(y), mask.row(y), words);
     any = true;
@@ -82,19 +97,30 @@ bool sweep(BitView seeds, ConstBitView mask, int from, int step) {
   return any;
 }
 
-/// The first sweep, down: seeds outside the mask go, and every row is filled.
-void first_sweep(BitView seeds, ConstBitView mask) {
+/// The first sweep, down: seeds outside the mask go, and every row is filled. The rows that stay open.
+OpenRows first_sweep(BitView seeds, ConstBitView mask) {
   const int words = words_for(mask.width);
+  OpenRows rows;
   for (int y = 0; y < mask.height; ++y) {
     BitWord* row = seeds.row(y);
     BitWord any = 0;
+    BitWord open = 0;
     for (int i = 0; i < words; ++i) {
-      row[i] &= mask.row(y)[i];
+      const BitWord here = mask.row(y)[i];
+      open |= here & ~row[i];
+      row[i] &= here;
       any |= row[i];
     }
+    if (open == 0) continue;
     const bool more = y > 0 && take_over(row, mask.row(y), seeds.row(y - 1), words);
-    if (any != 0 || more) fill_runs(row, mask.row(y), words);
+    if (any != 0 || more) {
+      fill_runs(row, mask.row(y), words);
+      if (!is_open(row, mask.row(y), words)) continue;
+    }
+    if (rows.last < 0) rows.first = y;
+    rows.last = y;
   }
+  return rows;
 }
 
 }  // namespace
@@ -102,14 +128,13 @@ void first_sweep(BitView seeds, ConstBitView mask) {
 GrowResult grow_inside(BitView seeds, ConstBitView mask) {
   GrowResult result;
   if (mask.width <= 0 || mask.height <= 0) return result;
-  first_sweep(seeds, mask);
+  const OpenRows rows = first_sweep(seeds, mask);
   result.sweeps = 1;
   const int bound = max_grow_sweeps(mask.width, mask.height);
   // When a sweep after the first adds nothing, all rows agree with both of their neighbours.
   for (bool down = false; result.sweeps < bound; down = !down) {
     ++result.sweeps;
-    const bool grew = down ? sweep(seeds, mask, 0, 1) : sweep(seeds, mask, mask.height - 1, -1);
-    if (!grew) return result;
+    if (!sweep(seeds, mask, rows, down)) return result;
   }
   result.finished = false;
   return result;

@@ -72,16 +72,20 @@ template <typename Vector>
          static_cast<std::uint64_t>(bits_of(rows[2] > margin, rows[3] > margin)) << 32;
 }
 
-/// How much a pixel is above its sides, of which the brighter one counts.
-[[gnu::always_inline]] inline I16x16 above_sides(I16x16 here, I16x16 before, I16x16 after) {
-  const I16x16 most = before > after ? before : after;
-  return here - (most + (most >> 4));
-}
+[[gnu::always_inline]] inline I16x16 larger_of(I16x16 a, I16x16 b) { return a > b ? a : b; }
 
-[[gnu::always_inline]] inline void compare(const I16x16 (&above)[ridge_block_px / 2], const RidgeBlock& block,
-                                           std::uint64_t& weak, std::uint64_t& strong) {
-  weak = larger(above, block.weak_margin);
-  strong = larger(above, block.strong_margin);
+/// A block's pixels, two rows a vector, and the margins they are compared with.
+struct Above {
+  I16x16 less_weak[ridge_block_px / 2];  // less the weak margin
+  std::int16_t extra;                    // that strong asks for beyond weak
+};
+/// `bars`: of both sides, what a pixel has to exceed by the margin. bars(i) is asked for two rows.
+template <typename Bars>
+[[gnu::always_inline]] inline void compare(const Above& here, Bars bars, std::uint64_t& weak, std::uint64_t& strong) {
+  I16x16 above[ridge_block_px / 2];
+  for (int i = 0; i < ridge_block_px / 2; ++i) above[i] = here.less_weak[i] - bars(i);
+  weak = larger(above, 0);
+  strong = weak == 0 ? 0 : larger(above, here.extra);
 }
 
 inline int clamped(int v, int last) { return v < 0 ? 0 : v > last ? last : v; }
@@ -115,17 +119,32 @@ inline Patch make_patch(const RidgeBlock& block, Copy& copy) {
   return {copy[0], patch_columns, top, bottom};
 }
 
+/// Sums of weight 4, and what a pixel has to exceed by the margin to stand out from a side with that sum: it and a
+/// sixteenth. The larger side has the larger bar, too.
+template <std::size_t Rows, std::size_t Columns>
+struct Sums {
+  std::int16_t sum[Rows][Columns];
+  std::int16_t bar[Rows][Columns];
+
+  [[gnu::always_inline]] void store(int row, int column, I16x16 sums) {
+    const I16x16 bars = sums + (sums >> 4);
+    __builtin_memcpy(&sum[row][column], &sums, sizeof sums);
+    __builtin_memcpy(&bar[row][column], &bars, sizeof bars);
+  }
+};
+
+using BlockSums = Sums<ridge_block_px, patch_columns>;
+
 /// Sums of sixteen columns from `first` on.
 [[gnu::always_inline]] inline void sum_down(const std::uint8_t* const (&rows)[ridge_block_px + 2], int first,
-                                            std::int16_t (&sums)[ridge_block_px][patch_columns]) {
+                                            BlockSums& sums) {
   // a + 2 b + c is (a + b) + (b + c), and each pair serves two rows.
   I16x16 here = sixteen(rows[1] + first);
   I16x16 pair = sixteen(rows[0] + first) + here;
   for (int r = 0; r < ridge_block_px; ++r) {
     const I16x16 below = sixteen(rows[r + 2] + first);
     const I16x16 next = here + below;
-    const I16x16 sum = pair + next;
-    __builtin_memcpy(&sums[r][first], &sum, sizeof sum);
+    sums.store(r, first, pair + next);
     here = below;
     pair = next;
   }
@@ -144,7 +163,7 @@ inline void look_along_rows(const RidgeBlock& block, const Patch& patch, RidgeBi
   for (int r = 0; r < ridge_block_px + 2; ++r, corner += patch.stride) {
     rows[r] = inside ? corner : patch.row(block.y0 + r - 1);
   }
-  std::int16_t sums[ridge_block_px][patch_columns];
+  BlockSums sums;
   constexpr int middle_px = (16 - ridge_block_px) / 2;  // reach that sixteen columns have
   if (longest(block.row_reach, block.row_looks) <= middle_px) {
     sum_down(rows, margin_px - middle_px, sums);
@@ -152,45 +171,72 @@ inline void look_along_rows(const RidgeBlock& block, const Patch& patch, RidgeBi
     sum_down(rows, 0, sums);
     sum_down(rows, 16, sums);
   }
+  Above here;
+  here.extra = static_cast<std::int16_t>(block.strong_margin - block.weak_margin);
+  for (int i = 0; i < ridge_block_px / 2; ++i) {
+    here.less_weak[i] = two_rows(&sums.sum[2 * i][margin_px], &sums.sum[2 * i + 1][margin_px]) - block.weak_margin;
+  }
   for (int k = 0; k < block.row_looks; ++k) {
     const int reach = block.row_reach[k];
-    I16x16 above[ridge_block_px / 2];
-    for (int i = 0; i < ridge_block_px / 2; ++i) {
-      const std::int16_t* a = &sums[2 * i][margin_px];
-      const std::int16_t* b = &sums[2 * i + 1][margin_px];
-      above[i] = above_sides(two_rows(a, b), two_rows(a - reach, b - reach), two_rows(a + reach, b + reach));
-    }
-    compare(above, block, out.row_weak[k], out.row_strong[k]);
+    const auto bars = [&](int i) __attribute__((always_inline)) {
+      const std::int16_t* a = &sums.bar[2 * i][margin_px];
+      const std::int16_t* b = &sums.bar[2 * i + 1][margin_px];
+      return larger_of(two_rows(a - reach, b - reach), two_rows(a + reach, b + reach));
+    };
+    compare(here, bars, out.row_weak[k], out.row_strong[k]);
   }
 }
 
-[[gnu::always_inline]] inline void sum_across(const std::uint8_t* here, std::int16_t (&sums)[ridge_block_px]) {
-  const I16x8 middle = eight(here);
-  const I16x8 sum = eight(here - 1) + middle + middle + eight(here + 1);
-  __builtin_memcpy(sums, &sum, sizeof sum);
+/// Sums of eight pixels of two rows, each with its neighbours in the row.
+[[gnu::always_inline]] inline I16x16 sum_across(const std::uint8_t* upper, const std::uint8_t* lower) {
+#if defined(__AVX2__)
+  // Pixels -4..11 of each: pairs of a pixel with the one before it, weighted 2 and 1; and the one after it.
+  const __m256i both =
+      _mm256_inserti128_si256(_mm256_castsi128_si256(load_from<__m128i>(upper - 4)), load_from<__m128i>(lower - 4), 1);
+  const __m256i pairs = _mm256_setr_epi8(3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 3, 4, 4, 5, 5, 6, 6, 7, 7,
+                                         8, 8, 9, 9, 10, 10, 11);
+  const __m256i nexts = _mm256_setr_epi8(5, -1, 6, -1, 7, -1, 8, -1, 9, -1, 10, -1, 11, -1, 12, -1,  //
+                                         5, -1, 6, -1, 7, -1, 8, -1, 9, -1, 10, -1, 11, -1, 12, -1);
+  const __m256i before = _mm256_maddubs_epi16(_mm256_shuffle_epi8(both, pairs), _mm256_set1_epi16(0x0201));
+  return reinterpret_cast<I16x16>(_mm256_add_epi16(before, _mm256_shuffle_epi8(both, nexts)));
+#else
+  const auto row = [](const std::uint8_t* here) __attribute__((always_inline)) {
+    const I16x8 middle = eight(here);
+    return eight(here - 1) + middle + middle + eight(here + 1);
+  };
+  const I16x8 a = row(upper), b = row(lower);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+#endif
 }
 
 inline void look_along_columns(const RidgeBlock& block, const Patch& patch, RidgeBits& out) {
-  std::int16_t sums[across_rows][ridge_block_px];
+  Sums<across_rows, ridge_block_px> sums;
   const int reach_px = longest(block.column_reach, block.column_looks);
   const int first = max_ridge_reach_px - reach_px;
   const int end = max_ridge_reach_px + ridge_block_px + reach_px;
   const int top = block.y0 - reach_px;
   if (top >= patch.first_row && top + end - first - 1 <= patch.last_row) {
     const std::uint8_t* here = patch.row(top) + margin_px;
-    for (int r = first; r < end; ++r, here += patch.stride) sum_across(here, sums[r]);
+    for (int r = first; r < end; r += 2, here += 2 * patch.stride)
+      sums.store(r, 0, sum_across(here, here + patch.stride));
   } else {
-    for (int r = first; r < end; ++r) sum_across(patch.row(top + r - first) + margin_px, sums[r]);
+    for (int r = first; r < end; r += 2) {
+      const int y = top + r - first;
+      sums.store(r, 0, sum_across(patch.row(y) + margin_px, patch.row(y + 1) + margin_px));
+    }
+  }
+  Above here;
+  here.extra = static_cast<std::int16_t>(block.strong_margin - block.weak_margin);
+  for (int i = 0; i < ridge_block_px / 2; ++i) {
+    here.less_weak[i] = load_from<I16x16>(sums.sum[max_ridge_reach_px + 2 * i]) - block.weak_margin;
   }
   for (int k = 0; k < block.column_looks; ++k) {
-    const int reach = block.column_reach[k];
-    I16x16 above[ridge_block_px / 2];
-    for (int i = 0; i < ridge_block_px / 2; ++i) {
-      const std::int16_t* here = sums[max_ridge_reach_px + 2 * i];
-      above[i] = above_sides(load_from<I16x16>(here), load_from<I16x16>(here - reach * ridge_block_px),
-                             load_from<I16x16>(here + reach * ridge_block_px));
-    }
-    compare(above, block, out.column_weak[k], out.column_strong[k]);
+    const int reach = block.column_reach[k] * ridge_block_px;
+    const auto bars = [&](int i) __attribute__((always_inline)) {
+      const std::int16_t* middle = sums.bar[max_ridge_reach_px + 2 * i];
+      return larger_of(load_from<I16x16>(middle - reach), load_from<I16x16>(middle + reach));
+    };
+    compare(here, bars, out.column_weak[k], out.column_strong[k]);
   }
 }
 
