@@ -8,7 +8,7 @@
 
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
-#include "vision/image/luma_bands_loops.h"
+#include "vision/image/luma_bands_avx2.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
 #include "vision/image/thinning_loops.h"
@@ -240,7 +240,7 @@ Kernels avx2_kernels() {
       .halve_rows = halve_rows,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
-      .hsv_rows = bands::hsv_rows,
+      .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),

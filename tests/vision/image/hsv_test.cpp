@@ -130,8 +130,13 @@ void check_mask(const Kernels& kernels, const HsvRange& range) {
 }
 
 TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every size, with every table of kernels") {
-  for (const HsvRange& range :
-       {HsvRange{20, 110, 40, 255, 30, 240}, {0, 179, 0, 255, 40, 200}, {150, 70, 0, 90, 0, 255}, {50, 51, 9, 200}}) {
+  for (const HsvRange& range : {HsvRange{20, 110, 40, 255, 30, 240},
+                                {0, 179, 0, 255, 40, 200},
+                                {150, 70, 0, 90, 0, 255},
+                                {50, 51, 9, 200},
+                                {28, 95, 40, 255, 12, 255},
+                                {170, 10, 1, 255, 0, 130},
+                                {100, 160, 255, 255, 255, 255}}) {
     for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) check_mask(kernels, range);
   }
 }
