@@ -26,8 +26,8 @@ struct One {
 /// Eight lanes.
 struct Eight {
   using F = float __attribute__((vector_size(32)));
-  using I = std::int32_t __attribute__((vector_size(32)));
-  using M = I;  // all bits or none
+  using I = int __attribute__((vector_size(32)));  // as comparisons make them, also where int32_t is a long
+  using M = I;                                     // all bits or none
   static constexpr int lanes = 8;
 };
 
