@@ -11,6 +11,7 @@
 #include "vision/digestion.h"
 #include "vision/image/thinning.h"
 #include "vision/node_graph.h"
+#include "vision/short_pieces.h"
 #include "vision/skeleton_index.h"
 
 namespace touchline {
@@ -35,6 +36,8 @@ struct GraphStorage {
   static constexpr std::size_t max_edges = max_nodes * 3 / 2;            // most nodes have two ways, forks three
   static constexpr std::size_t max_points = max_pixels + 2 * max_edges;  // each pixel once, and both ends of every edge
   static_assert(max_pixels < no_pixel, "pixels are numbered with 16 bits");
+  // Before, short pieces of skeleton are looked for in the memory of the node graph.
+  static_assert(max_pixels >= 3 * max_open_pieces(W) && max_points >= 4 * max_open_pieces(W), "too few rows");
 
   std::array<GridPoint, max_pixels> pixels{};
   std::array<std::uint16_t, static_cast<std::size_t>(words_for(W)) * static_cast<std::size_t>(H)> pixels_before{};

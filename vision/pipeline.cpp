@@ -202,7 +202,10 @@ void Pipeline::make_skeleton(VisionResult& result) {
   const BitView& skeleton = views_.mask(MaskId::skeleton);
   copy(views_.mask(MaskId::line_mask), skeleton);
   thin(skeleton, memory_.thinning, config_.kernels.thin);
-  remove_short_pieces(skeleton, result.line_widths, scaled(5), views_.mask(MaskId::scratch), memory_.stack);
+  const NodeGraphMemory& graph = memory_.graph.graph;  // made later
+  remove_short_pieces(skeleton, result.line_widths, scaled(5),
+                      {graph.cluster, graph.stack, graph.points.first(graph.points.size() / 2),
+                       graph.points.subspan(graph.points.size() / 2)});
   result.skeleton = skeleton;
   result.counts.skeleton_pixels = count(skeleton);
 }

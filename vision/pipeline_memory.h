@@ -56,7 +56,6 @@ struct PipelineMemory {
   std::span<Vec3> rays;
   std::span<LineWidth> line_widths;
   ThinningMemory thinning;
-  std::span<GridPoint> stack;
   BlobMemory blob_search;
   std::span<Blob> blobs;
   std::span<GridPoint> hull;          // two a row, and one

@@ -31,7 +31,6 @@ class PipelineStorage {
     m.rays = rays_;
     m.line_widths = line_widths_;
     m.thinning = {graph_.plane, masks_[static_cast<std::size_t>(MaskId::scratch)].words, thinning_marks_};
-    m.stack = stack_;
     m.blob_search = blob_search_.memory();
     m.blobs = blobs_;
     m.hull = hull_;
@@ -56,8 +55,6 @@ class PipelineStorage {
   std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>
       line_widths_{};
   std::array<BitWord, thinning_marks_size(W, H)> thinning_marks_{};
-  // Pixels that wait while a piece of skeleton is followed, depth first: three a fork at the most.
-  std::array<GridPoint, 512> stack_{};
   BlobStorage<W> blob_search_{};
   std::array<Blob, 64> blobs_{};  // pieces of green, largest first kept: the field, boards, chairs, clothes
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_{};

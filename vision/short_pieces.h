@@ -3,6 +3,8 @@
 // follows from the width of a line there.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "vision/graph.h"
@@ -16,12 +18,22 @@ inline constexpr int least_length_in_widths = 3;  // a mark is one line width ac
 struct PieceCounts {
   int kept = 0;
   int removed = 0;
-  int overflowed = 0;  // 1: a piece did not fit `stack`; it and all that follows were kept without a check
+  int overflowed = 0;  // pieces that did not fit `stack` while they were taken away: some of their pixels are left
+};
+
+/// Runs of one row and of the one above, and the pieces that reach one of them.
+constexpr std::size_t max_skeleton_runs(int width) { return static_cast<std::size_t>(width / 2 + 1); }
+constexpr std::size_t max_open_pieces(int width) { return 2 * max_skeleton_runs(width); }
+
+struct PieceMemory {
+  std::span<std::uint16_t> runs;    // 6 max_skeleton_runs(width)
+  std::span<std::uint16_t> pieces;  // 3 max_open_pieces(width)
+  std::span<GridPoint> corners;     // 2 max_open_pieces(width)
+  std::span<GridPoint> stack;       // bounds the pixels that wait while a piece is taken away
 };
 
 /// Removes from `skeleton` each 8-connected piece that extends over less than three line widths or less than `least_px`
-/// pixels. `scratch` has the skeleton's size; `stack` bounds the pixels that wait while a piece is followed.
-PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, BitView scratch,
-                                std::span<GridPoint> stack);
+/// pixels. One pass over the rows joins their runs to pieces; a piece is judged when a row has none of it any more.
+PieceCounts remove_short_pieces(BitView skeleton, LineWidthView widths, int least_px, const PieceMemory& memory);
 
 }  // namespace touchline
