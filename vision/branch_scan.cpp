@@ -46,6 +46,13 @@ class BranchScan {
     WorkPoint from, to;
     bool seen = false;  // by the lens
   };
+  /// A place along the line.
+  struct Knot {
+    float t = 0.0F;
+    float step = 0.0F;  // a working pixel along the line, metres
+    GroundPixel pixel;
+  };
+  void place_knots();
   void scan_side(const Side& side);
   [[nodiscard]] GroundPoint at(float t) const {
     return {line_.end[0].x + t * line_.direction.x, line_.end[0].y + t * line_.direction.y};
@@ -59,6 +66,7 @@ class BranchScan {
   const JunctionSearch& search_;
   const LineSegment& line_;
   Heading along_;
+  StaticVector<Knot, max_scan_knots + 1> knots_;
 };
 
 float between(float x, float y, float f) { return x + f * (y - x); }
@@ -67,40 +75,47 @@ WorkPoint between(const WorkPoint& a, const WorkPoint& b, float f) {
 }
 
 void BranchScan::scan() {
+  place_knots();
   for (const float side : {1.0F, -1.0F}) {
     scan_side({{-side * line_.direction.y, side * line_.direction.x},
                Heading(wrap_angle(along_.angle + side * math::half_pi))});
   }
 }
 
-void BranchScan::scan_side(const Side& side) {
+/// Between knots a few pixels apart the lens is as good as straight.
+void BranchScan::place_knots() {
   const auto beyond = [&](const GroundPoint& end) {
     return scan_beyond_widths * search_.parameters.line_width_m +
            scan_beyond_px * search_.sight.metres_per_px(end, along_);
   };
   float t = -beyond(line_.end[0]);
   const float last = line_.length + beyond(line_.end[1]);
-  GroundPixel pixel(search_.rays, at(t));
-  Fence fence = fence_at(at(t), pixel, side);
+  for (bool more = true; more;) {
+    Knot knot{t, 0.0F, GroundPixel(search_.rays, at(t))};
+    knot.step = knot.pixel.along(along_);
+    more = knots_.push_back(knot) && t < last;
+    t = math::min(t + static_cast<float>(scan_knot_px) * knot.step, last);
+  }
+}
+
+void BranchScan::scan_side(const Side& side) {
+  Fence fence = fence_at(at(knots_[0].t), knots_[0].pixel, side);
   Run run;
-  for (int knot = 0; knot < max_scan_knots && t < last; ++knot) {
-    // Between knots a few pixels apart the lens is as good as straight.
-    const float step = pixel.along(along_);
-    const float knot_end = math::min(t + static_cast<float>(scan_knot_px) * step, last);
-    pixel = GroundPixel(search_.rays, at(knot_end));
-    const Fence next = fence_at(at(knot_end), pixel, side);
+  for (std::size_t k = 0; k + 1 < knots_.size(); ++k) {
+    const Knot& knot = knots_[k];
+    const Knot& end = knots_[k + 1];
+    const Fence next = fence_at(at(end.t), end.pixel, side);
     const bool dark = !fence.seen || !next.seen || none_white(fence, next);
     for (int i = 0; i < (dark ? 1 : scan_knot_px); ++i) {
       const float f = static_cast<float>(i) / static_cast<float>(scan_knot_px);
       const float white = dark ? 0.0F : white_part(fence, next, f, white_enough);
       if (white >= white_enough) {
-        run.add(t + f * (knot_end - t), white);
+        run.add(knot.t + f * (end.t - knot.t), white);
       } else if (run.weight > 0.0F) {
-        add_stem(run, step, side);
+        add_stem(run, knot.step, side);
         run = {};
       }
     }
-    t = knot_end;
     fence = next;
   }
 }

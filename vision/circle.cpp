@@ -44,7 +44,13 @@ struct NearPoints {
 class CircleFinder {
  public:
   CircleFinder(LineSegments& lines, const WorkRays& rays, const CircleParameters& parameters, CircleWork& work)
-      : lines_(lines), rays_(rays), parameters_(parameters), work_(work) {}
+      : lines_(lines), rays_(rays), parameters_(parameters), work_(work) {
+    constexpr float slack = 1.01F;  // sigma() adds a little so as not to divide by zero
+    const float height = rays.projection().pose().height;
+    towards2_ = slack * math::square(rays.radians_per_pixel() * skeleton_px / height);
+    tilt2_ = slack * math::square(sigma_tilt * parameters.radius_m / height);
+    rag2_ = slack * math::square(rag_widths * parameters.line_width_m);
+  }
 
   bool run(CircleObservation& circle);
 
@@ -61,7 +67,8 @@ class CircleFinder {
   }
   [[nodiscard]] float sigma(const GroundPoint& p, const GroundPoint& centre, float apart) const;
   void gather(const GroundPoint& centre, NearPoints& near) const;
-  [[nodiscard]] bool near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const;
+  [[nodiscard]] bool near_circle(const GroundPoint& p, const GroundPoint& centre, float sigmas, float& off,
+                                 float& sigma_m) const;
   bool refine(GroundPoint& centre, Sym2& information, float& chi) const;
   float arc(const GroundPoint& centre);
   [[nodiscard]] bool contradicted(const GroundPoint& centre) const;
@@ -73,6 +80,7 @@ class CircleFinder {
   const WorkRays& rays_;
   const CircleParameters& parameters_;
   CircleWork& work_;
+  float towards2_, tilt2_, rag2_;  // parts of a bound of sigma squared
 };
 
 /// Three points of a chain, a radius apart where the chain is long enough: forks and dirt break a circle's skeleton.
@@ -171,7 +179,9 @@ float CircleFinder::sigma(const GroundPoint& p, const GroundPoint& centre, float
                     math::square(sigma_tilt * range * parameters_.radius_m / pose.height));
 }
 
-bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, float& off, float& sigma_m) const {
+/// Within `sigmas` of the circle; what that is worth depends on the place.
+bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, float sigmas, float& off,
+                               float& sigma_m) const {
   // Most points are far from the circle: a square tells before a root does. Its bounds are a little wider.
   const float squared = math::square(p.x - centre.x) + math::square(p.y - centre.y);
   if (squared > math::square(1.41F * parameters_.radius_m) || squared < math::square(0.59F * parameters_.radius_m)) {
@@ -180,8 +190,13 @@ bool CircleFinder::near_circle(const GroundPoint& p, const GroundPoint& centre, 
   const float apart = math::sqrt(squared);
   off = apart - parameters_.radius_m;
   if (math::abs(off) > band_radii * parameters_.radius_m) return false;
+  // A bound of sigma squared, seen along the ray, takes neither a root nor a division.
+  const CameraPose& pose = rays_.projection().pose();
+  const float range2 = math::square(p.x - pose.x) + math::square(p.y - pose.y);
+  const float most = towards2_ * math::square(range2 + pose.height * pose.height) + tilt2_ * range2 + rag2_;
+  if (off * off > sigmas * sigmas * most) return false;
   sigma_m = sigma(p, centre, apart);
-  return math::abs(off) < gate * sigma_m;
+  return math::abs(off) < sigmas * sigma_m;
 }
 
 /// What near_circle() may accept until the centre has moved by the slack.
@@ -209,7 +224,7 @@ bool CircleFinder::refine(GroundPoint& centre, Sym2& information, float& chi) co
     for (const std::uint16_t i : near.points) {
       const ChainPoint& p = lines_.points[i];
       float off = 0.0F, sigma_m = 1.0F;
-      if (!near_circle(p.ground, centre, off, sigma_m)) continue;
+      if (!near_circle(p.ground, centre, gate, off, sigma_m)) continue;
       const float d = off + parameters_.radius_m;
       const float ux = (p.ground.x - centre.x) / d;
       const float uy = (p.ground.y - centre.y) / d;
@@ -279,7 +294,7 @@ bool CircleFinder::contradicted(const GroundPoint& centre) const {
     float off = math::sqrt(squared) - parameters_.radius_m;
     if (math::abs(off) > beside_radii * parameters_.radius_m) continue;
     float sigma_m = 1.0F;
-    const bool near = near_circle(p.ground, centre, off, sigma_m) || math::abs(off) < 1.5F * gate * sigma_m;
+    const bool near = near_circle(p.ground, centre, 1.5F * gate, off, sigma_m);
     const float angle = math::atan2(p.ground.y - centre.y, p.ground.x - centre.x) + math::pi;
     const int bin = static_cast<int>(angle / bin_width);
     bins[bin < circle_bins ? bin : 0] |= near ? on : beside;

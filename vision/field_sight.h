@@ -44,6 +44,7 @@ struct Heading {
 /// What a working pixel means on the ground at a point.
 class GroundPixel {
  public:
+  GroundPixel() = default;
   GroundPixel(const WorkRays& rays, const GroundPoint& p);
   /// Metres in a direction.
   [[nodiscard]] float along(const Heading& heading) const;
@@ -51,8 +52,8 @@ class GroundPixel {
   [[nodiscard]] float longest() const { return towards_; }
 
  private:
-  float x_, y_, range_;  // of the point, from the camera's foot
-  float across_, towards_;
+  float x_ = 0.0F, y_ = 0.0F, range_ = 0.0F;  // of the point, from the camera's foot
+  float across_ = 0.0F, towards_ = 0.0F;
 };
 
 class FieldSight {
