@@ -20,17 +20,20 @@ constexpr std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
 int find_reaches(unsigned across, unsigned slanted, int (&reaches)[max_ridge_looks]) {
   constexpr unsigned farthest = max_ridge_px + 2;
   const unsigned narrow = std::min(across, slanted);
-  const unsigned candidates[max_ridge_looks] = {(narrow * 19 / 16 + 32) / 16, ((narrow + slanted) / 2 + 32) / 16,
-                                                (slanted + 32) / 16};
-  int count = 0;
-  unsigned last = 0;
-  for (const unsigned reach : candidates) {
-    if (reach > farthest) break;
-    if (reach == last) continue;
-    reaches[count++] = static_cast<int>(reach);
-    last = reach;
-  }
-  return count;
+  const unsigned first = (narrow * 19 / 16 + 32) / 16;
+  const unsigned middle = ((narrow + slanted) / 2 + 32) / 16;
+  const unsigned last = (slanted + 32) / 16;
+  // Each once, up to the first that is too far; without a branch, which no processor could foresee.
+  const unsigned near_first = first <= farthest ? 1U : 0U;
+  const unsigned near_middle = near_first & (middle <= farthest ? 1U : 0U);
+  const unsigned near_last = near_middle & (last <= farthest ? 1U : 0U);
+  reaches[0] = static_cast<int>(first);
+  unsigned count = near_first;
+  reaches[count] = static_cast<int>(middle);
+  count += near_middle & (middle != first ? 1U : 0U);
+  reaches[count] = static_cast<int>(last);
+  count += near_last & (last != middle ? 1U : 0U);
+  return static_cast<int>(count);
 }
 
 /// Eight rows of eight bits of a mask from (x, y) on, wherever that is: bit 8 y + x; zero beyond the image.

@@ -46,8 +46,13 @@ template <typename Vector>
 #endif
 }
 [[gnu::always_inline]] inline I16x16 two_rows(const std::int16_t* a, const std::int16_t* b) {
+#if defined(__AVX2__)
+  return reinterpret_cast<I16x16>(
+      _mm256_inserti128_si256(_mm256_castsi128_si256(load_from<__m128i>(a)), load_from<__m128i>(b), 1));
+#else
   return __builtin_shufflevector(load_from<I16x8>(a), load_from<I16x8>(b), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13,
                                  14, 15);
+#endif
 }
 
 /// A bit a lane of two vectors.
@@ -85,7 +90,7 @@ template <typename Bars>
   I16x16 above[ridge_block_px / 2];
   for (int i = 0; i < ridge_block_px / 2; ++i) above[i] = here.less_weak[i] - bars(i);
   weak = larger(above, 0);
-  strong = weak == 0 ? 0 : larger(above, here.extra);
+  strong = larger(above, here.extra);  // a branch on weak would cost more than it spares
 }
 
 inline int clamped(int v, int last) { return v < 0 ? 0 : v > last ? last : v; }
@@ -135,14 +140,16 @@ struct Sums {
 
 using BlockSums = Sums<ridge_block_px, patch_columns>;
 
-/// Sums of sixteen columns from `first` on.
-[[gnu::always_inline]] inline void sum_down(const std::uint8_t* const (&rows)[ridge_block_px + 2], int first,
+/// Sums of sixteen columns from `first` on; `above`: the row above the block.
+[[gnu::always_inline]] inline void sum_down(const std::uint8_t* above, std::ptrdiff_t stride, int first,
                                             BlockSums& sums) {
   // a + 2 b + c is (a + b) + (b + c), and each pair serves two rows.
-  I16x16 here = sixteen(rows[1] + first);
-  I16x16 pair = sixteen(rows[0] + first) + here;
+  const std::uint8_t* row = above + stride + first;
+  I16x16 here = sixteen(row);
+  I16x16 pair = sixteen(above + first) + here;
   for (int r = 0; r < ridge_block_px; ++r) {
-    const I16x16 below = sixteen(rows[r + 2] + first);
+    row += stride;
+    const I16x16 below = sixteen(row);
     const I16x16 next = here + below;
     sums.store(r, first, pair + next);
     here = below;
@@ -151,25 +158,29 @@ using BlockSums = Sums<ridge_block_px, patch_columns>;
 }
 
 inline int longest(const int (&reaches)[max_ridge_looks], int looks) {
-  int most = 0;
-  for (int k = 0; k < looks; ++k) most = reaches[k] > most ? reaches[k] : most;
-  return most;
+  static_assert(max_ridge_looks == 3);
+  const int last = looks > 2 && reaches[2] > reaches[1] ? reaches[2] : reaches[1];
+  return looks > 1 && last > reaches[0] ? last : reaches[0];
 }
 
 inline void look_along_rows(const RidgeBlock& block, const Patch& patch, RidgeBits& out) {
-  const std::uint8_t* rows[ridge_block_px + 2];
-  const bool inside = block.y0 - 1 >= patch.first_row && block.y0 + ridge_block_px <= patch.last_row;
-  const std::uint8_t* corner = patch.row(block.y0 - 1);
-  for (int r = 0; r < ridge_block_px + 2; ++r, corner += patch.stride) {
-    rows[r] = inside ? corner : patch.row(block.y0 + r - 1);
+  const std::uint8_t* above = patch.row(block.y0 - 1);
+  std::ptrdiff_t stride = patch.stride;
+  std::uint8_t at_border[ridge_block_px + 2][patch_columns];
+  if (block.y0 - 1 < patch.first_row || block.y0 + ridge_block_px > patch.last_row) {
+    for (int r = 0; r < ridge_block_px + 2; ++r) {
+      __builtin_memcpy(at_border[r], patch.row(block.y0 + r - 1), patch_columns);
+    }
+    above = at_border[0];
+    stride = patch_columns;
   }
   BlockSums sums;
   constexpr int middle_px = (16 - ridge_block_px) / 2;  // reach that sixteen columns have
   if (longest(block.row_reach, block.row_looks) <= middle_px) {
-    sum_down(rows, margin_px - middle_px, sums);
+    sum_down(above, stride, margin_px - middle_px, sums);
   } else {
-    sum_down(rows, 0, sums);
-    sum_down(rows, 16, sums);
+    sum_down(above, stride, 0, sums);
+    sum_down(above, stride, 16, sums);
   }
   Above here;
   here.extra = static_cast<std::int16_t>(block.strong_margin - block.weak_margin);
