@@ -60,6 +60,8 @@ class SkeletonIndex {
   [[nodiscard]] std::uint8_t steps(int x, int y) const;
 
  private:
+  void leave_out_rows(int capacity);
+  bool number_rows(int most);
   [[nodiscard]] unsigned three(int x, int y) const;  // pixels x - 1, x, x + 1 of row y in bits 0, 1, 2
   [[nodiscard]] unsigned block(int x, int y) const {
     return three(x, y - 1) | three(x, y) << 3U | three(x, y + 1) << 6U;
