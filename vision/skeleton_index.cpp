@@ -24,6 +24,12 @@ int count_row(ConstBitView image, int y) {
 
 }  // namespace
 
+constinit const std::array<std::uint8_t, 512> steps_of_block = [] {
+  std::array<std::uint8_t, 512> table{};
+  for (unsigned block = 0; block < table.size(); ++block) table[block] = steps_of(ring_of(block));
+  return table;
+}();
+
 int count_of(std::uint8_t neighbours) { return count_table[neighbours]; }
 
 bool SkeletonIndex::build(ConstBitView skeleton) {

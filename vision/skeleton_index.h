@@ -104,11 +104,8 @@ constexpr std::uint8_t ring_of(unsigned block) {
   for (unsigned k = 0; k < 8; ++k) ring |= (block >> places[k] & 1U) << k;
   return static_cast<std::uint8_t>(ring);
 }
-inline constexpr std::array<std::uint8_t, 512> steps_of_block = [] {
-  std::array<std::uint8_t, 512> table{};
-  for (unsigned block = 0; block < table.size(); ++block) table[block] = steps_of(ring_of(block));
-  return table;
-}();
+/// steps_of() of the neighbours in each such block.
+extern const std::array<std::uint8_t, 512> steps_of_block;
 
 inline unsigned SkeletonIndex::three(int x, int y) const {
   const BitWord* words = row(y);
