@@ -101,9 +101,9 @@ HsvFilter::HsvFilter(const HsvRange& range) {
   if (hue_in_range(0, range) && range.saturation_low == 0) plan_.neutral = {range.value_low, range.value_high};
   plan_.rare = steps <= 30 && plan_.neutral.low > plan_.neutral.high;
   // Saturation is 255 chroma / value, and chroma at most 359 + 454 times the larger of |cb| and |cr|.
-  const std::int32_t least_value = std::max(range.value_low * 256 - 128, 0);
-  const std::int32_t least_saturation = std::max(2 * range.saturation_low - 1, 0);  // of 510
-  plan_.least_chroma = std::max(least_value * least_saturation / (510 * (359 + 454)), 1);
+  const std::int32_t least_value = std::max<std::int32_t>(range.value_low * 256 - 128, 0);
+  const std::int32_t least_saturation = std::max<std::int32_t>(2 * range.saturation_low - 1, 0);  // of 510
+  plan_.least_chroma = std::max<std::int32_t>(least_value * least_saturation / (510 * (359 + 454)), 1);
 }
 
 LumaBand HsvFilter::luma_range(std::uint8_t cb, std::uint8_t cr) const { return portable_band(plan_, cb, cr); }
