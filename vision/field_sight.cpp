@@ -28,12 +28,6 @@ GroundPixel::GroundPixel(const WorkRays& rays, const GroundPoint& p) {
   towards_ = across_ * depth / pose.height;
 }
 
-float GroundPixel::along(const Heading& heading) const {
-  if (!(range_ > 1.0e-3F)) return across_;
-  const float c = (x_ * heading.out.x + y_ * heading.out.y) / range_;
-  return math::sqrt(math::square(towards_ * c) + math::square(across_) * (1.0F - c * c));
-}
-
 float FieldSight::min_branch(float px) const { return math::max(branch_widths * line_width_, branch_px * px); }
 
 Sight FieldSight::look(const GroundPoint& from, const GroundPoint& to) const {

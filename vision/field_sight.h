@@ -47,7 +47,11 @@ class GroundPixel {
   GroundPixel() = default;
   GroundPixel(const WorkRays& rays, const GroundPoint& p);
   /// Metres in a direction.
-  [[nodiscard]] float along(const Heading& heading) const;
+  [[nodiscard]] float along(const Heading& heading) const {
+    if (!(range_ > 1.0e-3F)) return across_;
+    const float c = (x_ * heading.out.x + y_ * heading.out.y) / range_;
+    return math::sqrt(math::square(towards_ * c) + math::square(across_) * (1.0F - c * c));
+  }
   /// Metres in the worst one, away from the camera.
   [[nodiscard]] float longest() const { return towards_; }
 

@@ -163,7 +163,6 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
   const float second = left ? c.other : wrap_angle(c.other + math::pi);
   const float directions[4] = {c.heading, second, wrap_angle(c.heading + math::pi), wrap_angle(second + math::pi)};
   bool is_line[4] = {};
-  bool thin[4] = {};  // a line, but beside the middle
   int lines = 0;
   bool hidden = false;
   Way ways[4] = {};
@@ -171,14 +170,17 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
     const Way w = way(c, directions[i]);
     ways[i] = w;
     is_line[i] = w == Way::line;
-    thin[i] = is_line[i] && !is_middle(c, directions[i]);
     lines += is_line[i] ? 1 : 0;
     hidden = hidden || w == Way::hidden;
   }
   // The mask beside a bar may look like a fourth branch; a real one is white in its middle.
   if (lines == 4) {
+    bool thin[4] = {};  // beside the middle of a line
     int weak = 0;
-    for (const bool t : thin) weak += t ? 1 : 0;
+    for (int i = 0; i < 4; ++i) {
+      thin[i] = !is_middle(c, directions[i]);
+      weak += thin[i] ? 1 : 0;
+    }
     for (int i = 0; i < 4 && weak == 1; ++i) is_line[i] = !thin[i];
     if (weak == 1) lines = 3;
   }
