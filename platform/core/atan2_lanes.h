@@ -30,7 +30,7 @@ inline float atan2_lane(float y, float x) {
   const float turned = angle < pi ? -angle : angle;  // -pi itself is outside the range
   angle = y < 0.0F ? turned : angle;
   angle = high == 0.0F ? 0.0F : angle;  // minus zero is zero
-  return (x != x) | (y != y) ? x + y : angle;
+  return ((x != x) | (y != y)) ? x + y : angle;
 }
 
 }  // namespace touchline::math
