@@ -20,7 +20,7 @@ namespace touchline {
 /// Two working rows of a frame that is twice as high as the working image, in rows of three interleaved bytes.
 struct HalvedRows {
   const std::uint8_t* source[4] = {};           // two for the upper working row, two for the lower
-  int source_bytes = 0;                         // of each
+  int source_bytes = 0;                         // of each that may be read: what lies behind a row has no weight
   const std::uint16_t* first_column = nullptr;  // of each working column's window of four source columns
   /// Of each working column of a period, sixteen: w0 w1 three times, 0 0, w2 w3 three times, 0 0; all below 128.
   const std::int8_t* weights = nullptr;

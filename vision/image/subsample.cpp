@@ -279,7 +279,6 @@ void Subsampler::set_kernel_weights() {
 
 void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) const {
   HalvedRows rows;
-  rows.source_bytes = 3 * frame.width;
   rows.first_column = memory_.first_column.data();
   rows.weights = reinterpret_cast<const std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
   rows.columns = horizontal_.target;
@@ -288,6 +287,8 @@ void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) cons
   rows.matrix = colour_matrix(frame.format);
   for (int y = 0; y < vertical_.target; y += 2) {
     for (int k = 0; k < 4; ++k) rows.source[k] = unpack_row(frame, 2 * y + k, nullptr);
+    const bool last = y + 2 >= vertical_.target;  // behind the others there is another row
+    rows.source_bytes = 3 * frame.width + (last ? 0 : frame.stride_bytes);
     rows.y[0] = out.y.row(y);
     rows.y[1] = out.y.row(y + 1);
     rows.cb = out.cb.row(y / 2);
