@@ -58,32 +58,40 @@ Row make_row(const ColourRow& m) {
   return {_mm256_set1_epi64x(lanes), _mm256_set1_epi32(m.offset * (1 << fraction_bits) + (1 << (colour_shift - 1)))};
 }
 
-/// Eight luma samples.
-void store_luma(__m256i low, __m256i high, const Row& m, std::uint8_t* out) {
+/// Sums in order of the columns 0 2 4 6 | 1 3 5 7.
+__m256i luma_of(__m256i low, __m256i high, const Row& m) {
   const __m256i sums =
       _mm256_hadd_epi32(_mm256_madd_epi16(low, m.coefficients), _mm256_madd_epi16(high, m.coefficients));
-  const __m256i y = _mm256_srai_epi32(_mm256_add_epi32(sums, m.offset), colour_shift);  // 0 2 4 6 | 1 3 5 7
-  const __m128i words = _mm_packs_epi32(_mm256_castsi256_si128(y), _mm256_extracti128_si256(y, 1));
-  const __m128i bytes = _mm_packus_epi16(words, words);
-  const __m128i in_order = _mm_shuffle_epi8(bytes, _mm_setr_epi8(0, 4, 1, 5, 2, 6, 3, 7, 0, 4, 1, 5, 2, 6, 3, 7));
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(out), in_order);
+  return _mm256_srai_epi32(_mm256_add_epi32(sums, m.offset), colour_shift);
+}
+/// Eight luma samples of each row.
+void store_luma(__m256i upper, __m256i lower, std::uint8_t* to_upper, std::uint8_t* to_lower) {
+  const __m256i words = _mm256_packs_epi32(upper, lower);
+  const __m256i bytes = _mm256_packus_epi16(words, words);  // even columns of both rows | odd ones
+  const __m128i rows = _mm_unpacklo_epi8(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1));
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to_upper), rows);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(to_lower), _mm_unpackhi_epi64(rows, rows));
 }
 
-/// Means over 2x2 of two working columns each.
-__m128i two_chroma(__m256i upper, __m256i lower) {
-  const __m256i both = _mm256_add_epi16(upper, lower);
-  const __m128i sum = _mm_add_epi16(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
-  return _mm_srli_epi16(_mm_add_epi16(sum, _mm_set1_epi16(2)), 2);
+/// Means over 2x2 of working columns 0 and 1, 2 and 3 | 4 and 5, 6 and 7; `first` and `last` are sums of two rows.
+__m256i four_chroma(__m256i first, __m256i last) {
+  const __m256i sums =
+      _mm256_add_epi16(_mm256_permute2x128_si256(first, last, 0x20), _mm256_permute2x128_si256(first, last, 0x31));
+  return _mm256_srli_epi16(_mm256_add_epi16(sums, _mm256_set1_epi16(2)), 2);
 }
-
-/// Four chroma samples.
-void store_chroma(__m128i low, __m128i high, const Row& m, std::uint8_t* out) {
-  const __m128i c = _mm256_castsi256_si128(m.coefficients);
-  const __m128i sums = _mm_hadd_epi32(_mm_madd_epi16(low, c), _mm_madd_epi16(high, c));
-  const __m128i v = _mm_srai_epi32(_mm_add_epi32(sums, _mm256_castsi256_si128(m.offset)), colour_shift);
-  const __m128i words = _mm_packs_epi32(v, v);
-  const int four = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
-  __builtin_memcpy(out, &four, sizeof four);
+/// Four samples of each kind; `offset` has cb's twice, then cr's.
+void store_chroma(__m256i means, const Row& cb, const Row& cr, __m256i offset, std::uint8_t* to_cb,
+                  std::uint8_t* to_cr) {
+  const __m256i sums =
+      _mm256_hadd_epi32(_mm256_madd_epi16(means, cb.coefficients), _mm256_madd_epi16(means, cr.coefficients));
+  const __m256i v = _mm256_srai_epi32(_mm256_add_epi32(sums, offset), colour_shift);
+  const __m256i words = _mm256_packs_epi32(v, v);
+  const __m256i bytes = _mm256_packus_epi16(words, words);  // cb cb cr cr of the first four columns | of the last
+  const __m128i both = _mm_unpacklo_epi16(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1));
+  const std::int64_t eight = _mm_cvtsi128_si64(both);
+  __builtin_memcpy(to_cb, &eight, 4);
+  const std::int64_t four = eight >> 32;
+  __builtin_memcpy(to_cr, &four, 4);
 }
 
 /// The address may lie beyond the picture, where no pointer may be made by counting; nothing is read.
@@ -113,14 +121,11 @@ struct Job {
     const std::int8_t* more = rows.weights + 16 * next;
     const __m256i u0 = four_columns(upper, first, weights, scale);
     const __m256i u1 = four_columns(upper, first + 4, more, scale);
-    store_luma(u0, u1, y, rows.y[0] + x);
     const __m256i l0 = four_columns(lower, first, weights, scale);
     const __m256i l1 = four_columns(lower, first + 4, more, scale);
-    store_luma(l0, l1, y, rows.y[1] + x);
-    const __m128i c0 = two_chroma(u0, l0);
-    const __m128i c1 = two_chroma(u1, l1);
-    store_chroma(c0, c1, cb, rows.cb + x / 2);
-    store_chroma(c0, c1, cr, rows.cr + x / 2);
+    store_luma(luma_of(u0, u1, y), luma_of(l0, l1, y), rows.y[0] + x, rows.y[1] + x);
+    const __m256i means = four_chroma(_mm256_add_epi16(u0, l0), _mm256_add_epi16(u1, l1));
+    store_chroma(means, cb, cr, _mm256_unpacklo_epi64(cb.offset, cr.offset), rows.cb + x / 2, rows.cr + x / 2);
   }
 };
 
