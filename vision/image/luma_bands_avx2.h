@@ -109,17 +109,15 @@ inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const UsualRange range(f);
   bands::in_rows(
       r, [&](int first, int count, std::uint8_t* low, std::uint8_t* high) __attribute__((always_inline)) {
-        if (f.rare && !bands::any_of_hue(f, r.cb + first, r.cr + first, count)) {
-          const __m256i none = _mm256_setzero_si256();
-          _mm256_storeu_si256(reinterpret_cast<__m256i*>(low), _mm256_cmpeq_epi8(none, none));
-          _mm256_storeu_si256(reinterpret_cast<__m256i*>(high), none);
-        } else if (count == bands::word_samples) {
+        if (f.rare && !bands::has_hue(f, r.cb + first, r.cr + first, count)) return false;
+        if (count == bands::word_samples) {
 #pragma GCC unroll 1  // or the numbers of both do not fit into the registers
           for (int i = 0; i < bands::word_samples; i += 16)
             range(r.cb + first + i, r.cr + first + i, low + i, high + i);
         } else {
           bands::hsv_samples(f, r.cb + first, r.cr + first, count, low, high);
         }
+        return true;
       });
 }
 

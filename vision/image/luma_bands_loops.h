@@ -190,7 +190,7 @@ inline std::uint64_t band_word(const std::uint8_t* y, const std::uint8_t* low, c
 #endif
 }
 
-/// make(first, count, low, high): the bands of some chroma samples of the row.
+/// make(first, count, low, high): the bands of some chroma samples of the row; false when they are all empty.
 template <typename Make>
 [[gnu::always_inline]] inline void in_rows(const BandRows& rows, Make make) {
   std::uint8_t low[word_samples];
@@ -200,12 +200,9 @@ template <typename Make>
     std::uint64_t found[2] = {};
     if ((wanted[0] | wanted[1]) != 0) {
       const int used = least(rows.width - first, word_px);
-      if (used == word_px) {
-        make(first / 2, word_samples, low, high);
-      } else {
-        make(first / 2, (used + 1) / 2, low, high);
-      }
-      for (int v = 0; v < 2; ++v) {
+      const bool any =
+          used == word_px ? make(first / 2, word_samples, low, high) : make(first / 2, (used + 1) / 2, low, high);
+      for (int v = 0; v < 2 && any; ++v) {
         const std::uint8_t* y = rows.y[v] + first;
         found[v] = (used == word_px ? whole_word(y, low, high) : band_word(y, low, high, used)) & wanted[v];
       }
@@ -220,12 +217,9 @@ inline void hsv_rows(const HsvBandPlan& plan, const BandRows& rows) {
   const BandRows r = rows;
   in_rows(
       r, [&f, &r ](int first, int count, std::uint8_t* low, std::uint8_t* high) __attribute__((always_inline)) {
-        if (f.rare && !has_hue(f, r.cb + first, r.cr + first, count)) {
-          for (int i = 0; i < word_samples; ++i) low[i] = 255;
-          for (int i = 0; i < word_samples; ++i) high[i] = 0;
-          return;
-        }
+        if (f.rare && !has_hue(f, r.cb + first, r.cr + first, count)) return false;
         hsv_samples(f, r.cb + first, r.cr + first, count, low, high);
+        return true;
       });
 }
 
@@ -236,6 +230,7 @@ inline void white_rows(const CarpetLimits& limits, const BandRows& rows) {
       r, [&f, &r ](int first, int count, std::uint8_t* low, std::uint8_t* high) __attribute__((always_inline)) {
         white_samples(f, r.cb + first, r.cr + first, count, low);
         for (int i = 0; i < word_samples; ++i) high[i] = 255;
+        return true;
       });
 }
 
