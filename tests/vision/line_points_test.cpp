@@ -91,7 +91,9 @@ TEST_CASE("with its direction given, a piece too short for the skeleton's axis h
   scene.stripes = {{{0.6F, 0.0F}, {1.2F, 0.0F}, 0.05F, line_white},
                    {{0.6F, 0.12F}, {1.2F, 0.12F}, 0.05F, line_white},
                    {{0.9F, 0.0F}, {0.9F, 0.12F}, 0.05F, line_white}};
-  for (const LinePoint& p : find(scene, usual_pose(), 0.05F)->points) CHECK(math::abs(p.dir_x) > 0.9F);
+  const auto found = find(scene, usual_pose(), 0.05F);
+  REQUIRE_FALSE(found->points.empty());
+  for (const LinePoint& p : found->points) CHECK(math::abs(p.dir_x) > 0.9F);
   LinePicture picture(scene, usual_pose());
   const LinePointInput input = picture.input(0.05F);
   WorkPoint at, ahead;
