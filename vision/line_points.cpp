@@ -268,18 +268,24 @@ LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,
   clear(scratch);
   // Evenly spread: on a skeleton of n pixels every n / 512-th.
   const int spacing = count(input.skeleton) / static_cast<int>(max_line_points) + 1;
+  const auto pass_over = [&scratch](int x, int y, int reach) {
+    for (int ny = y; ny < std::min(y + reach, scratch.height); ++ny)
+      set_span(scratch, ny, x - reach + 1, x + reach - 1, true);
+  };
   const PointFinder finder(input);
   for_each_set_bit(input.skeleton, [&](int x, int y) {
     if (scratch.get(x, y)) return;
     ++counts.considered;
     LinePoint point;
     const GridPoint pixel{static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-    if (!finder.find(pixel, point, counts)) return;
+    if (!finder.find(pixel, point, counts)) {
+      // Beside a pixel without a point there may be one. Of the thousands of pixels of clutter not all are asked.
+      pass_over(x, y, spacing / 4);
+      return;
+    }
     point.length *= static_cast<float>(spacing);
     points.push_back(point);
-    for (int ny = y; ny < std::min(y + spacing, scratch.height); ++ny) {
-      set_span(scratch, ny, x - spacing + 1, x + spacing - 1, true);
-    }
+    pass_over(x, y, spacing);
   });
   counts.dropped = static_cast<int>(points.dropped());
   return counts;

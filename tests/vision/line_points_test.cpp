@@ -112,3 +112,19 @@ TEST_CASE("with its direction given, a piece too short for the skeleton's axis h
     CHECK_FALSE(find_line_point(input, {5.0F, 1e12F}, {1.0F, 0.0F}, point));
   }
 }
+
+TEST_CASE("of a skeleton that is nothing but clutter not every pixel is asked") {
+  LinePicture picture(Scene{}, usual_pose());
+  Bits clutter(LinePicture::w, LinePicture::h);
+  for (int y = 0; y < clutter.height; y += 2) {
+    for (int x = 0; x < clutter.width; x += 2) clutter.view().set(x, y, true);
+  }
+  LinePointInput input = picture.input(0.05F);
+  input.skeleton = clutter.view();
+  Bits work(LinePicture::w, LinePicture::h);
+  StaticVector<LinePoint, max_line_points> points;
+  const LinePointCounts counts = find_line_points(input, work.view(), points);
+  CHECK(points.empty());
+  CHECK(counts.considered > 100);
+  CHECK(counts.considered < 2 * static_cast<int>(max_line_points));  // of 19,200
+}
