@@ -9,15 +9,12 @@
 #include "vision/image/bit_ops.h"
 #include "vision/image/half_level_loops.h"
 #include "vision/image/morphology.h"
+#include "vision/image/neighbour_words.h"
 #include "vision/image/vector_registers.h"
 #include "vision/image/word_lanes.h"
 
 namespace touchline {
 namespace {
-
-/// The neighbours of a word in its row; zero beyond.
-BitWord word_before(const BitWord* row, int i) { return i > 0 ? row[i - 1] : 0; }
-BitWord word_after(const BitWord* row, int i, int words) { return i + 1 < words ? row[i + 1] : 0; }
 
 /// Whether a luma is below the middle between the darkest and the brightest within two pixels, where two pixels to
 /// every side lie inside.
@@ -101,8 +98,8 @@ void trim_border(ConstBitView below, BitView lines) {
       const BitWord dark = below.row(y)[i];
       if (dark == 0) continue;
       const auto at = static_cast<std::size_t>(i);
-      BitWord inner = here[at] << 1 | word_before(here.data(), i) >> (bits_per_word - 1);
-      inner &= here[at] >> 1 | word_after(here.data(), i, words) << (bits_per_word - 1);
+      const RowTriple middle = row_triple(here.data(), i, words);
+      BitWord inner = middle.west & middle.east;
       inner &= above[at];
       inner &= y + 1 < lines.height ? lines.row(y + 1)[i] : 0;
       lines.row(y)[i] &= ~dark | inner;
@@ -143,10 +140,8 @@ void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, Bi
         BitWord spread = 0;
         for (int dy = -1; dy <= 1; ++dy) {
           if (y + dy < 0 || y + dy >= lines.height) continue;
-          const BitWord* row = static_cast<ConstBitView>(scratch).row(y + dy);
-          spread |= row[i] | row[i] << 1 | row[i] >> 1;
-          if (i > 0) spread |= row[i - 1] >> (bits_per_word - 1);
-          if (i + 1 < words) spread |= row[i + 1] << (bits_per_word - 1);
+          const RowTriple row = row_triple(static_cast<ConstBitView>(scratch).row(y + dy), i, words);
+          spread |= row.west | row.here | row.east;
         }
         lines.row(y)[i] |= spread & open;
         added |= spread & open;

@@ -9,7 +9,7 @@ namespace touchline {
 enum class Stage : std::uint8_t {
   average,      // subsample and mean of the FIFO (paper IV-A)
   green,        // HSV, min-max filter, erosion, dilation (IV-B)
-  roi,          // contours, largest blob, convex hull (IV-B)
+  roi,          // largest blob, convex hull (IV-B)
   candidates,   // white search and Canny in the ROI (IV-C)
   line_mask,    // dilation, erosion (IV-C)
   thinning,     // Zhang-Suen (IV-C)
