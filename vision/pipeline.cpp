@@ -164,15 +164,15 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& candidates = views_.mask(MaskId::candidates);
   const BitView& roi = views_.mask(MaskId::roi);
   and_with(candidates, roi);
-  find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_, candidates,
-                    views_.mask(MaskId::scratch), config_.kernels);
+  const GrowResult ridges = find_white_ridges(result.mean, roi, views_.mask(MaskId::green), result.line_widths, carpet_,
+                                              candidates, views_.mask(MaskId::scratch), config_.kernels);
   const BitView& edges = views_.mask(MaskId::edges);
   // An edge beside a line that is found already adds nothing. The line mask is made later: its memory is free.
   const BitView& zone = views_.mask(MaskId::line_mask);
   find_edge_zone(views_.mask(MaskId::white), roi, candidates, zone);
   const GrowResult grown = find_edges(result.mean.y, zone, edge_thresholds(carpet_), memory_.canny,
                                       views_.mask(MaskId::scratch), edges, config_.kernels);
-  if (!grown.finished) ++result.counts.dropped_edge_seeds;
+  result.counts.dropped_edge_seeds = (ridges.finished ? 0 : 1) + (grown.finished ? 0 : 1);
   const EdgeInput input{result.mean.y,      edges,          views_.mask(MaskId::green), views_.mask(MaskId::white),
                         result.line_widths, config_.kernels};
   add_line_edges(input, candidates, result.counts.rejected_candidates);
@@ -203,9 +203,11 @@ void Pipeline::make_skeleton(VisionResult& result) {
   copy(views_.mask(MaskId::line_mask), skeleton);
   thin(skeleton, memory_.thinning, config_.kernels.thin);
   const NodeGraphMemory& graph = memory_.graph.graph;  // made later
-  remove_short_pieces(skeleton, result.line_widths, scaled(5),
-                      {graph.cluster, graph.stack, graph.points.first(graph.points.size() / 2),
-                       graph.points.subspan(graph.points.size() / 2)});
+  const PieceCounts pieces =
+      remove_short_pieces(skeleton, result.line_widths, scaled(5),
+                          {graph.cluster, graph.stack, graph.points.first(graph.points.size() / 2),
+                           graph.points.subspan(graph.points.size() / 2)});
+  result.counts.dropped_points = pieces.overflowed;
   result.skeleton = skeleton;
   result.counts.skeleton_pixels = count(skeleton);
 }
@@ -217,7 +219,7 @@ void Pipeline::digest_skeleton(VisionResult& result) {
   const DigestionResult digested = digest(index_, parameters, memory_.graph.digestion);
   result.major_nodes = digested.major_nodes;
   result.counts.major_nodes = static_cast<int>(digested.major_nodes.size());
-  result.counts.dropped_points = index_.dropped();
+  result.counts.dropped_points += index_.dropped();
   result.counts.dropped_nodes = digested.dropped;
 }
 

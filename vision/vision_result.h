@@ -28,10 +28,10 @@ struct VisionCounts {
   std::array<int, candidate_rejections> rejected_candidates{};  // by CandidateRejection
   // What found no room; the partial result is valid.
   int dropped_blobs = 0;
-  int dropped_edge_seeds = 0;  // 1: Canny's hysteresis reached its bound of sweeps
+  int dropped_edge_seeds = 0;  // hystereses, of ridges and of Canny's edges, that reached their bound of sweeps
   int dropped_nodes = 0;
   int dropped_edges = 0;
-  int dropped_points = 0;
+  int dropped_points = 0;  // of the skeleton, and short pieces too long for the memory to be taken away whole
   int dropped_junctions = 0;
   int dropped_posts = 0;
   int dropped_line_points = 0;
