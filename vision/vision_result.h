@@ -35,6 +35,12 @@ struct VisionCounts {
   int dropped_junctions = 0;
   int dropped_posts = 0;
   int dropped_line_points = 0;
+
+  /// All that found no room.
+  [[nodiscard]] constexpr int dropped() const {
+    return dropped_blobs + dropped_edge_seeds + dropped_nodes + dropped_edges + dropped_points + dropped_junctions +
+           dropped_posts + dropped_line_points;
+  }
 };
 
 struct VisionResult {

@@ -10,11 +10,6 @@ namespace {
 
 constexpr float max_unknown_xy = 3.0F;  // metres: beyond this it does not matter how far
 
-int total_dropped(const VisionCounts& c) {
-  return c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges + c.dropped_points +
-         c.dropped_junctions + c.dropped_line_points;
-}
-
 }  // namespace
 
 Status RobotLoop::configure_parts(const RobotConfig& config, const char** what) {
@@ -150,7 +145,7 @@ Status RobotLoop::localize(MonotonicNs time, RobotReport& report, StageObserver*
   report.junctions = static_cast<int>(vision_.features->junctions.size());
   report.posts = static_cast<int>(vision_.features->posts.size());
   report.line_points = static_cast<int>(vision_.features->line_points.size());
-  report.dropped = total_dropped(vision_.counts);
+  report.dropped = vision_.counts.dropped();
   return Status::ok;
 }
 

@@ -41,11 +41,6 @@ double covered(const cv::Mat& a, const cv::Mat& b) {
   return all == 0 ? 1.0 : static_cast<double>(cv::countNonZero(a & wide)) / all;
 }
 
-int all_drops(const VisionCounts& c) {
-  return c.dropped_blobs + c.dropped_edge_seeds + c.dropped_nodes + c.dropped_edges + c.dropped_points +
-         c.dropped_junctions + c.dropped_line_points;
-}
-
 struct StageGroup {
   const char* name;
   std::vector<Stage> ours;
@@ -108,7 +103,7 @@ class PairedRun {
     ours_average_.push_back(ours_[static_cast<std::size_t>(Stage::average)]);
     copy_yardstick(pool_.views[(index + pool_.views.size() / 2) % pool_.views.size()]);
     compare_products();
-    result_.dropped.push_back(all_drops(chain_->vision.counts));
+    result_.dropped.push_back(chain_->vision.counts.dropped());
   }
 
   /// The search for the first pose, on a single shot.

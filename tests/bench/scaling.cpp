@@ -160,8 +160,7 @@ void time_worst(benchmark::State& state, const FramePool& pool, WorstKind kind) 
   }
   const VisionCounts& c = chain->vision.counts;
   state.counters["skeleton"] = c.skeleton_pixels;
-  state.counters["dropped"] = c.dropped_blobs + c.dropped_nodes + c.dropped_edges + c.dropped_points +
-                              c.dropped_junctions + c.dropped_line_points;
+  state.counters["dropped"] = c.dropped();
 }
 
 void time_frame_to_pose(benchmark::State& state, const FramePool& pool) {

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/vision/painted_field.h"
@@ -203,4 +204,58 @@ TEST_CASE("twice the working size gives the same lines") {
   int off = 0;
   for (const LinePoint& p : result.features->line_points.span()) off += off_line(p) > math::max(p.sigma, 0.01F) ? 1 : 0;
   CHECK(off * 50 < static_cast<int>(result.features->line_points.size()));
+}
+
+TEST_CASE("what finds no room is counted where it was lost, and the frame stays valid") {
+  Scene scene = cross();
+  scene.carpet_radius = 2.0F;
+  scene.stripes.push_back({{3.2F, -1.0F}, {3.2F, 1.0F}, 1.2F, carpet_green});  // another blob, beyond a ring of floor
+  const Picture picture = painted(scene);
+  struct Shrunk {
+    const char* what;
+    void (*shrink)(PipelineMemory&);
+    int VisionCounts::*counter;
+  };
+  const Shrunk cases[] = {
+      {"blobs", [](PipelineMemory& m) { m.blobs = m.blobs.first(1); }, &VisionCounts::dropped_blobs},
+      {"pixels", [](PipelineMemory& m) { m.graph.index.pixels = m.graph.index.pixels.first(40); },
+       &VisionCounts::dropped_points},
+      {"major nodes", [](PipelineMemory& m) { m.graph.digestion.major_nodes = m.graph.digestion.major_nodes.first(5); },
+       &VisionCounts::dropped_nodes},
+      {"graph nodes", [](PipelineMemory& m) { m.graph.graph.nodes = m.graph.graph.nodes.first(5); },
+       &VisionCounts::dropped_nodes},
+      {"edges", [](PipelineMemory& m) { m.graph.graph.edges = m.graph.graph.edges.first(5); },
+       &VisionCounts::dropped_edges},
+      {"edges' points", [](PipelineMemory& m) { m.graph.graph.points = m.graph.graph.points.first(100); },
+       &VisionCounts::dropped_points},
+  };
+  for (const Shrunk& c : cases) {
+    const std::string what = c.what;
+    CAPTURE(what);
+    const auto storage = std::make_unique<PipelineStorage<320, 240, 4>>();
+    PipelineMemory memory = storage->memory();
+    c.shrink(memory);
+    Pipeline pipeline(memory);
+    VisionConfig config;
+    config.line_width_m = 0.10F;
+    REQUIRE(pipeline.configure(config, test::paper_lens()) == Status::ok);
+    VisionResult result;
+    REQUIRE(pipeline.process({picture.view(), 0.0, usual_pose(), {}}, result) == Status::ok);
+    CHECK(result.counts.*c.counter > 0);
+    CHECK(result.counts.dropped() >= result.counts.*c.counter);
+    CHECK(result.features->line_points.size() > 20);
+  }
+}
+
+TEST_CASE("all that was dropped is the sum of every counter of it") {
+  VisionCounts counts;
+  counts.dropped_blobs = 1;
+  counts.dropped_edge_seeds = 2;
+  counts.dropped_nodes = 4;
+  counts.dropped_edges = 8;
+  counts.dropped_points = 16;
+  counts.dropped_junctions = 32;
+  counts.dropped_posts = 64;
+  counts.dropped_line_points = 128;
+  CHECK(counts.dropped() == 255);
 }
