@@ -2,6 +2,7 @@
 // The options of the command line, checked in one place.
 #include "platform/host/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -71,6 +72,11 @@ std::vector<std::string> names_of_options(const CLI::App& app) {
     names.push_back(option->get_name());
   }
   return names;
+}
+
+bool has_unknown_option(const CLI::App& command) {
+  const std::vector<std::string> left = command.remaining();
+  return std::any_of(left.begin(), left.end(), [](const std::string& word) { return word.starts_with("-"); });
 }
 
 /// An argument that nobody wants: a word in a command's place, or an option that the command has not.
@@ -177,8 +183,10 @@ void refuse_option(const CLI::App& app, const std::string& name, const std::stri
 }
 
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected_argument(app);
   const CLI::App& command = parsed_command(app);
+  // What is missing may be there, misspelt: that is said first.
+  const bool misspelt = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && has_unknown_option(command);
+  if (misspelt || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return unexpected_argument(app);
   std::string what = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     const std::string option = what.substr(0, what.find(':'));

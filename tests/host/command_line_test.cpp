@@ -93,6 +93,8 @@ TEST_CASE("bad usage is status 2, in one line of the program's own") {
   check_refused(run({"evaluate", "x", "--work", "100x100"}), "evaluate --work 100x100: write 320x240 or 640x480");
   check_refused(run({"evaluate", "x", "--model", "fuller"}), "write full or paper; did you mean full?");
   check_refused(run({"evaluate", "x", "--sed", "1"}), "evaluate --sed: no such option; did you mean --seed?");
+  check_refused(run({"locate", "x.png", "--camra", "c.toml"}),
+                "locate --camra: no such option; did you mean --camera?");
   check_refused(run({"evaluate", "x", "--seed"}), "evaluate --seed: its value is missing");
   check_refused(run({"evaluate", "x", "--seed", "1", "--seed", "2"}), "--seed: is given more than once");
   check_refused(run({"memory", "3"}), "memory 3: one argument too many");
