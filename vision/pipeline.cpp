@@ -55,7 +55,7 @@ Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const c
   config_ = config;
   lens_ = lens;
   views_ = views;
-  fifo_ = FrameFifo({views_.slots.data(), static_cast<std::size_t>(config.fifo_depth)}, views_.mean, config.kernels);
+  fifo_ = FrameFifo({views_.slots.data(), static_cast<std::size_t>(config.fifo_depth)}, config.kernels);
   make_ray_grid(lens, config.frame_width, config.frame_height, config.work_width, config.work_height, views_.rays);
   make_seen_mask(lens, config.frame_width, config.frame_height, config.body_mask.span(), views_.mask(MaskId::seen));
   configured_ = true;

@@ -19,7 +19,6 @@ bool make_views(const PipelineMemory& memory, int width, int height, PipelineVie
   views.width = width;
   views.height = height;
   for (std::size_t i = 0; i < memory.depth; ++i) views.slots[i] = image_view(memory.slots[i], width, height);
-  views.mean = memory.depth > 1 ? image_view(memory.mean, width, height) : Yuv420View{};
   for (std::size_t i = 0; i < mask_count; ++i) {
     views.masks[i] = BitView{memory.masks[i].data(), width, height, words_for(width)};
   }

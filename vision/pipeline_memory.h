@@ -50,7 +50,6 @@ struct PipelineMemory {
   int max_height = 0;
   std::size_t depth = 0;  // slots that are there
   std::array<Yuv420Samples, max_fifo_depth> slots;
-  Yuv420Samples mean;  // empty when depth is 1
   SubsampleMemory subsample;
   std::array<std::span<BitWord>, mask_count> masks;
   std::span<Vec3> rays;
@@ -71,7 +70,6 @@ struct PipelineViews {
   int width = 0;
   int height = 0;
   std::array<Yuv420View, max_fifo_depth> slots;
-  Yuv420View mean;
   std::array<BitView, mask_count> masks;
   RayGridView rays;
   ImageView<LineWidth> line_widths;

@@ -14,7 +14,6 @@ namespace touchline {
 template <int W = 320, int H = 240, int Depth = 4, int FrameWidth = max_frame_width>
 class PipelineStorage {
   static_assert(Depth >= 1 && Depth <= max_fifo_depth);
-  static constexpr std::size_t mean_images = Depth > 1 ? 1 : 0;  // the mean of one frame is that frame
 
  public:
   [[nodiscard]] PipelineMemory memory() {
@@ -23,7 +22,6 @@ class PipelineStorage {
     m.max_height = H;
     m.depth = static_cast<std::size_t>(Depth);
     for (std::size_t i = 0; i < m.depth; ++i) m.slots[i] = samples(images_[i]);
-    if constexpr (Depth > 1) m.mean = samples(images_[m.depth]);
     m.subsample = subsample_.memory();
     for (std::size_t i = 0; i < stored_masks; ++i) m.masks[i] = masks_[i].words;
     // The skeleton is made after white was last looked at.
@@ -46,7 +44,7 @@ class PipelineStorage {
   using Slot = Yuv420Image<W, H>;
   static Yuv420Samples samples(Slot& slot) { return {slot.y.samples, slot.cb.samples, slot.cr.samples}; }
 
-  std::array<Slot, static_cast<std::size_t>(Depth) + mean_images> images_{};
+  std::array<Slot, static_cast<std::size_t>(Depth)> images_{};
   SubsampleStorage<FrameWidth, W, static_cast<std::size_t>(canny_rows* canny_row_stride(W))> subsample_{};
   static constexpr std::size_t stored_masks = mask_count - 1;
   static_assert(static_cast<std::size_t>(MaskId::skeleton) == stored_masks, "the last one shares its memory");
@@ -65,7 +63,7 @@ class PipelineStorage {
 };
 
 // The budget at 320x240.
-static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 928 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 804 * 1024);
 static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 480 * 1024);
 
 }  // namespace touchline

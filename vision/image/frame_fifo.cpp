@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean over held frames. Up to eight bytes are summed in 16 bit and divided by one multiplication, exactly.
+// The mean over held frames, written over the oldest of them. Up to eight bytes are summed in 16 bit and divided by one
+// multiplication, exactly.
 #include "vision/image/frame_fifo.h"
 
 #include <algorithm>
@@ -15,10 +16,16 @@ using Rows = std::array<const std::uint8_t*, max_fifo_depth>;
 template <int N>
 void mean_row(const Rows& rows, int width, std::uint8_t* out) {
   constexpr std::uint32_t reciprocal = (65536U + N - 1) / N;
-  for (int x = 0; x < width; ++x) {
-    std::uint16_t sum = N / 2;
-    for (int i = 0; i < N; ++i) sum = static_cast<std::uint16_t>(sum + rows[static_cast<std::size_t>(i)][x]);
-    out[x] = static_cast<std::uint8_t>((sum * reciprocal) >> 16);
+  constexpr int part_px = 64;  // a part is read whole before it is written
+  std::array<std::uint8_t, part_px> part;
+  for (int first = 0; first < width; first += part_px) {
+    const int count = std::min(part_px, width - first);
+    for (int x = 0; x < count; ++x) {
+      std::uint16_t sum = N / 2;
+      for (int i = 0; i < N; ++i) sum = static_cast<std::uint16_t>(sum + rows[static_cast<std::size_t>(i)][first + x]);
+      part[static_cast<std::size_t>(x)] = static_cast<std::uint8_t>((sum * reciprocal) >> 16);
+    }
+    std::copy_n(part.begin(), count, out + first);
   }
 }
 
@@ -49,8 +56,8 @@ void mean_plane(std::span<const Yuv420View> frames, Plane plane, const MeanOfFou
 
 }  // namespace
 
-FrameFifo::FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean, const Kernels& kernels)
-    : depth_(slots.size()), mean_(mean), mean_of_four_(kernels.mean_of_four) {
+FrameFifo::FrameFifo(std::span<const Yuv420View> slots, const Kernels& kernels)
+    : depth_(slots.size()), mean_of_four_(kernels.mean_of_four) {
   assert(!slots.empty() && slots.size() <= slots_.size());
   std::copy(slots.begin(), slots.end(), slots_.begin());
 }
@@ -78,10 +85,11 @@ ConstYuv420View FrameFifo::mean_of_still(std::span<const bool> still) {
   frames_in_mean_ = static_cast<int>(count);
   if (count == 1) return frames[0];
   const std::span<const Yuv420View> used = std::span<const Yuv420View>(frames).first(count);
-  mean_plane(used, &Yuv420View::y, mean_of_four_, mean_.y);
-  mean_plane(used, &Yuv420View::cb, mean_of_four_, mean_.cb);
-  mean_plane(used, &Yuv420View::cr, mean_of_four_, mean_.cr);
-  return mean_;
+  const Yuv420View mean = next_slot();
+  mean_plane(used, &Yuv420View::y, mean_of_four_, mean.y);
+  mean_plane(used, &Yuv420View::cb, mean_of_four_, mean.cb);
+  mean_plane(used, &Yuv420View::cr, mean_of_four_, mean.cr);
+  return mean;
 }
 
 }  // namespace touchline

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The last few working images and their mean (paper section IV-A): newest in, oldest out. Frames that moved are left
-// out.
+// out. The mean takes the place of the oldest frame, whose last use it was.
 #pragma once
 
 #include <array>
@@ -30,11 +30,10 @@ class FrameFifo {
  public:
   /// No slots yet: only to be assigned to.
   FrameFifo() = default;
-  /// `slots`: 1 to max_fifo_depth images of one size. `mean` is of the same size; with one slot it is never touched and
-  /// may be empty.
-  FrameFifo(std::span<const Yuv420View> slots, Yuv420View mean, const Kernels& kernels = portable_kernels());
+  /// `slots`: 1 to max_fifo_depth images of one size.
+  explicit FrameFifo(std::span<const Yuv420View> slots, const Kernels& kernels = portable_kernels());
 
-  /// The slot of the oldest frame (or of none yet): write the new frame there.
+  /// The slot of the oldest frame (or of none yet), and of the last mean: write the new frame there.
   [[nodiscard]] Yuv420View next_slot() const { return slots_[static_cast<std::size_t>(next_)]; }
   /// The frame in next_slot() is the newest now.
   void push();
@@ -46,8 +45,8 @@ class FrameFifo {
 
   /// The mean over the newest frame and those of `still` that are true: still[i] says that the i-th newest frame (0 is
   /// the newest, always in) was taken from where the newest was; elements that are missing count as false. Each sample
-  /// is (sum + n / 2) / n, so halves round up. The mean of one frame is that frame itself, without a copy. Valid until
-  /// the next write to a slot. size() > 0.
+  /// is (sum + n / 2) / n, so halves round up. The mean of one frame is that frame itself, without a copy; any other is
+  /// written into next_slot(). Valid until the next write to a slot. Once after each push().
   ConstYuv420View mean_of_still(std::span<const bool> still);
   /// How many frames the last mean_of_still() took.
   [[nodiscard]] int frames_in_mean() const { return frames_in_mean_; }
@@ -55,7 +54,6 @@ class FrameFifo {
  private:
   std::array<Yuv420View, max_fifo_depth> slots_{};
   std::size_t depth_ = 0;
-  Yuv420View mean_;
   MeanOfFour mean_of_four_ = nullptr;
   int next_ = 0;
   int size_ = 0;
