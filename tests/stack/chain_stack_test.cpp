@@ -13,6 +13,7 @@
 #include "platform/core/rng.h"
 #include "platform/processor/fastest_kernels.h"
 #include "tests/support/drawn_field.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"
 
@@ -123,5 +124,5 @@ void check_stack(const Kernels& kernels, const LocKernels& loc_kernels) {
 TEST_CASE("the chain from frame to pose fits a stack of 32 KiB") {
   check_stack(portable_kernels(), portable_loc_kernels());
   check_stack(word_kernels(), scalar_loc_kernels());
-  check_stack(fastest_kernels(), fastest_loc_kernels());
+  for (const Kernels& kernels : test::runnable_tables()) check_stack(kernels, fastest_loc_kernels());
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <random>
 
-#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/candidates.h"
 #include "vision/image/bit_ops.h"
 #include "vision/line_extent.h"
@@ -115,7 +115,7 @@ TEST_CASE("edges that bound a line are those of the rule, with every table of ke
       PlainRule rule(scene, plain);
       for_each_set_bit(scene.edges.view(), [&](int x, int y) { rule.look(x, y); });
       taken += plain.taken;
-      for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) {
+      for (const Kernels& kernels : test::all_tables()) {
         CAPTURE(kernels.name);
         CAPTURE(seed);
         Outcome out{before};

@@ -59,5 +59,7 @@ struct Kernels {
 /// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
 /// instructions (platform/processor).
 [[nodiscard]] Kernels avx2_kernels();
+/// Likewise with AVX-512, of it F, BW, DQ, VL, VBMI and VNNI.
+[[nodiscard]] Kernels avx512_kernels();
 
 }  // namespace touchline

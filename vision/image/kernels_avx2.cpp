@@ -4,252 +4,28 @@
 #include "vision/image/kernels.h"
 
 #if defined(__x86_64__) && defined(__AVX2__)
-#include <immintrin.h>
-
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
+#include "vision/image/halve_rows_avx2.h"
 #include "vision/image/luma_bands_avx2.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
 #include "vision/image/thinning_loops.h"
+#include "vision/image/window_moments_avx2.h"
 
 namespace touchline {
-namespace {
-
-constexpr int fraction_bits = 6;
-constexpr int colour_shift = colour_bits + fraction_bits;
-
-__m128i load(const void* from) { return _mm_loadu_si128(static_cast<const __m128i*>(from)); }
-__m256i load_two(const std::uint8_t* low, const std::uint8_t* high) {
-  return _mm256_inserti128_si256(_mm256_castsi128_si256(load(low)), load(high), 1);
-}
-
-/// Per working column (a half of the vector) the weighted sums of R, G, B over two source rows, in two parts.
-__m256i window_sums(const std::uint8_t* a, const std::uint8_t* b, int first, int second, __m256i weights) {
-  const __m256i pairs = _mm256_setr_epi8(0, 3, 1, 4, 2, 5, -1, -1, 6, 9, 7, 10, 8, 11, -1, -1,  //
-                                         0, 3, 1, 4, 2, 5, -1, -1, 6, 9, 7, 10, 8, 11, -1, -1);
-  const __m256i upper = _mm256_shuffle_epi8(load_two(a + first, a + second), pairs);
-  const __m256i lower = _mm256_shuffle_epi8(load_two(b + first, b + second), pairs);
-  return _mm256_add_epi16(_mm256_maddubs_epi16(upper, weights), _mm256_maddubs_epi16(lower, weights));
-}
-
-struct Sources {
-  const std::uint8_t *a, *b;
-};
-
-/// Columns 0, 2 | 1, 3 of four, each R G B 0 in 8.6 bit.
-[[gnu::always_inline]] inline __m256i four_columns(const Sources& s, const std::uint16_t* first,
-                                                   const std::int8_t* weights, __m256i scale) {
-  const auto* w = reinterpret_cast<const __m256i*>(weights);
-  const __m256i c01 = window_sums(s.a, s.b, 3 * first[0], 3 * first[1], _mm256_loadu_si256(w));
-  const __m256i c23 = window_sums(s.a, s.b, 3 * first[2], 3 * first[3], _mm256_loadu_si256(w + 1));
-  const __m256i sum = _mm256_add_epi16(_mm256_unpacklo_epi64(c01, c23), _mm256_unpackhi_epi64(c01, c23));
-  return _mm256_mulhi_epu16(sum, scale);
-}
-
-struct Row {
-  __m256i coefficients, offset;
-};
-Row make_row(const ColourRow& m) {
-  const std::int64_t lanes =
-      static_cast<std::int64_t>(static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.a)) |
-                                static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.b)) << 16 |
-                                static_cast<std::uint64_t>(static_cast<std::uint16_t>(m.c)) << 32);
-  return {_mm256_set1_epi64x(lanes), _mm256_set1_epi32(m.offset * (1 << fraction_bits) + (1 << (colour_shift - 1)))};
-}
-
-/// Sums in order of the columns 0 2 4 6 | 1 3 5 7.
-__m256i luma_of(__m256i low, __m256i high, const Row& m) {
-  const __m256i sums =
-      _mm256_hadd_epi32(_mm256_madd_epi16(low, m.coefficients), _mm256_madd_epi16(high, m.coefficients));
-  return _mm256_srai_epi32(_mm256_add_epi32(sums, m.offset), colour_shift);
-}
-/// Eight luma samples of each row.
-void store_luma(__m256i upper, __m256i lower, std::uint8_t* to_upper, std::uint8_t* to_lower) {
-  const __m256i words = _mm256_packs_epi32(upper, lower);
-  const __m256i bytes = _mm256_packus_epi16(words, words);  // even columns of both rows | odd ones
-  const __m128i rows = _mm_unpacklo_epi8(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1));
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(to_upper), rows);
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(to_lower), _mm_unpackhi_epi64(rows, rows));
-}
-
-/// Means over 2x2 of working columns 0 and 1, 2 and 3 | 4 and 5, 6 and 7; `first` and `last` are sums of two rows.
-__m256i four_chroma(__m256i first, __m256i last) {
-  const __m256i sums =
-      _mm256_add_epi16(_mm256_permute2x128_si256(first, last, 0x20), _mm256_permute2x128_si256(first, last, 0x31));
-  return _mm256_srli_epi16(_mm256_add_epi16(sums, _mm256_set1_epi16(2)), 2);
-}
-/// Four samples of each kind; `offset` has cb's twice, then cr's.
-void store_chroma(__m256i means, const Row& cb, const Row& cr, __m256i offset, std::uint8_t* to_cb,
-                  std::uint8_t* to_cr) {
-  const __m256i sums =
-      _mm256_hadd_epi32(_mm256_madd_epi16(means, cb.coefficients), _mm256_madd_epi16(means, cr.coefficients));
-  const __m256i v = _mm256_srai_epi32(_mm256_add_epi32(sums, offset), colour_shift);
-  const __m256i words = _mm256_packs_epi32(v, v);
-  const __m256i bytes = _mm256_packus_epi16(words, words);  // cb cb cr cr of the first four columns | of the last
-  const __m128i both = _mm_unpacklo_epi16(_mm256_castsi256_si128(bytes), _mm256_extracti128_si256(bytes, 1));
-  const std::int64_t eight = _mm_cvtsi128_si64(both);
-  __builtin_memcpy(to_cb, &eight, 4);
-  const std::int64_t four = eight >> 32;
-  __builtin_memcpy(to_cr, &four, 4);
-}
-
-/// The address may lie beyond the picture, where no pointer may be made by counting; nothing is read.
-void prefetch(const std::uint8_t* row, std::ptrdiff_t offset) {
-  const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(row) + static_cast<std::uintptr_t>(offset);
-  _mm_prefetch(reinterpret_cast<const char*>(address), _MM_HINT_T0);  // NOLINT(performance-no-int-to-ptr)
-}
-
-/// Columns whose windows may be read with sixteen bytes inside the row.
-int inner_columns(const HalvedRows& r) {
-  int columns = r.columns;
-  while (columns > 0 && 3 * r.first_column[columns - 1] + 16 > r.source_bytes) columns -= 8;
-  return columns;
-}
-
-/// By value, so that the compiler sees that no store of bytes can change it.
-struct Job {
-  HalvedRows rows;
-  __m256i scale;
-  Row y, cb, cr;
-
-  /// Eight working columns from x on; `shift`: where in the windows' rows the sources begin.
-  [[gnu::always_inline]] void eight(const Sources& upper, const Sources& lower, const std::uint16_t* first, int x,
-                                    int phase) const {
-    const int next = phase + 4 >= rows.period ? phase + 4 - rows.period : phase + 4;
-    const std::int8_t* weights = rows.weights + 16 * phase;
-    const std::int8_t* more = rows.weights + 16 * next;
-    const __m256i u0 = four_columns(upper, first, weights, scale);
-    const __m256i u1 = four_columns(upper, first + 4, more, scale);
-    const __m256i l0 = four_columns(lower, first, weights, scale);
-    const __m256i l1 = four_columns(lower, first + 4, more, scale);
-    store_luma(luma_of(u0, u1, y), luma_of(l0, l1, y), rows.y[0] + x, rows.y[1] + x);
-    const __m256i means = four_chroma(_mm256_add_epi16(u0, l0), _mm256_add_epi16(u1, l1));
-    store_chroma(means, cb, cr, _mm256_unpacklo_epi64(cb.offset, cr.offset), rows.cb + x / 2, rows.cr + x / 2);
-  }
-};
-
-/// The last columns, on a copy with room behind it.
-[[gnu::noinline]] void last_columns(const Job* job, int x, int phase) {
-  constexpr int window_bytes = 128;  // eight columns of ratio 4 at the most, and sixteen bytes
-  const HalvedRows& rows = job->rows;
-  std::uint8_t copies[4][window_bytes] = {};
-  std::uint16_t first[8];
-  const int begin = rows.first_column[x];
-  for (int i = 0; i < 8; ++i) first[i] = static_cast<std::uint16_t>(rows.first_column[x + i] - begin);
-  const int left = rows.source_bytes - 3 * begin;
-  const auto bytes = static_cast<std::size_t>(left < window_bytes ? left : window_bytes);
-  for (int k = 0; k < 4; ++k) __builtin_memcpy(copies[k], rows.source[k] + 3 * begin, bytes);
-  job->eight({copies[0], copies[1]}, {copies[2], copies[3]}, first, x, phase);
-}
-
-void halve_rows(const HalvedRows& r) {
-  const Job job{r, _mm256_set1_epi16(static_cast<short>(r.scale)), make_row(r.matrix.y), make_row(r.matrix.cb),
-                make_row(r.matrix.cr)};
-  const int columns = r.columns;
-  const int period = r.period;
-  const int inner = inner_columns(r);
-  int phase = 0;
-  int x = 0;
-  // The next four source rows: each begins in another page, where the processor's own prefetching has to start anew.
-  const std::ptrdiff_t next_rows = 2 * (r.source[2] - r.source[0]);
-  for (; x < inner; x += 8) {
-    for (const std::uint8_t* row : r.source) prefetch(row, next_rows + 3 * r.first_column[x]);
-    job.eight({job.rows.source[0], job.rows.source[1]}, {job.rows.source[2], job.rows.source[3]},
-              job.rows.first_column + x, x, phase);
-    phase += 8;
-    while (phase >= period) phase -= period;
-  }
-  const Job copy = job;  // its address is taken: only of the copy
-  for (; x < columns; x += 8) {
-    last_columns(&copy, x, phase);
-    phase += 8;
-    while (phase >= period) phase -= period;
-  }
-}
-
-/// Of the four bits of each half byte; `table` holds the sum of each of the sixteen patterns.
-__m256i sums_of(__m128i table, __m256i patterns) {
-  return _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(table), patterns);
-}
-/// Of the four bytes of each lane the sum, each times its weight.
-__m256i weighted(__m256i bytes, __m256i weights) {
-  return _mm256_madd_epi16(_mm256_maddubs_epi16(bytes, weights), _mm256_set1_epi16(1));
-}
-/// The same weights for each lane, of the four bytes whose first pixels are 0, 8, 16 and 24.
-__m256i byte_weights(int a, int b, int c) {
-  return _mm256_set1_epi32((a & 255) | (b & 255) << 8 | (c & 255) << 16);  // 21 pixels reach into no fourth byte
-}
-int sum_of(__m256i v) {
-  const __m128i half = _mm_add_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  const __m128i quarter = _mm_add_epi32(half, _mm_unpackhi_epi64(half, half));
-  return _mm_cvtsi128_si32(_mm_add_epi32(quarter, _mm_shuffle_epi32(quarter, 1)));
-}
-
-/// Eight rows a time. Tables give the number, the sum and the sum of squares of the columns in each byte, which
-/// then move to the window's middle: (x + o)^2 = x^2 + 2 o x + o^2.
-void window_moments(const MomentWindow& w, Moments& m) {
-  const __m128i count = _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
-  const __m128i low_x = _mm_setr_epi8(0, 0, 1, 1, 2, 2, 3, 3, 3, 3, 4, 4, 5, 5, 6, 6);
-  const __m128i low_xx = _mm_setr_epi8(0, 0, 1, 1, 4, 4, 5, 5, 9, 9, 10, 10, 13, 13, 14, 14);
-  const __m128i high_x = _mm_setr_epi8(0, 4, 5, 9, 6, 10, 11, 15, 7, 11, 12, 16, 13, 17, 18, 22);
-  const __m128i high_xx = _mm_setr_epi8(0, 16, 25, 41, 36, 52, 61, 77, 49, 65, 74, 90, 85, 101, 110, 126);
-  const int size = 2 * w.radius + 1;
-  const int a = -w.radius, b = size > 8 ? 8 - w.radius : 0, c = size > 16 ? 16 - w.radius : 0;  // first columns
-  const __m256i once = _mm256_set1_epi8(1);
-  const __m256i first = byte_weights(a, b, c);
-  const __m256i twice = byte_weights(2 * a, 2 * b, 2 * c);
-  const __m256i square = byte_weights(a * a, b * b, c * c);
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  const __m256i at = _mm256_mullo_epi32(lane, _mm256_set1_epi32(static_cast<int>(w.stride)));
-  const __m256i inside = _mm256_set1_epi32((1 << size) - 1);
-  const __m256i half_byte = _mm256_set1_epi8(15);
-  __m256i n = _mm256_setzero_si256();
-  __m256i x = n, y = n, xx = n, xy = n, yy = n;
-  for (int row = 0; row < size; row += 8) {
-    const auto* from = reinterpret_cast<const int*>(w.bytes + row * w.stride);
-    const __m256i valid = _mm256_cmpgt_epi32(_mm256_set1_epi32(size - row), lane);
-    const __m256i words = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), from, at, valid, 1);
-    const __m256i bits = _mm256_and_si256(_mm256_srl_epi32(words, _mm_cvtsi32_si128(w.shift)), inside);
-    const __m256i low = _mm256_and_si256(bits, half_byte);
-    const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bits, 4), half_byte);
-    const __m256i byte_n = _mm256_add_epi8(sums_of(count, low), sums_of(count, high));
-    const __m256i byte_x = _mm256_add_epi8(sums_of(low_x, low), sums_of(high_x, high));
-    const __m256i byte_xx = _mm256_add_epi8(sums_of(low_xx, low), sums_of(high_xx, high));
-    const __m256i row_n = weighted(byte_n, once);
-    const __m256i row_x = _mm256_add_epi32(weighted(byte_x, once), weighted(byte_n, first));
-    const __m256i row_xx =
-        _mm256_add_epi32(_mm256_add_epi32(weighted(byte_xx, once), weighted(byte_x, twice)), weighted(byte_n, square));
-    const __m256i dy = _mm256_add_epi32(lane, _mm256_set1_epi32(row - w.radius));
-    const __m256i row_y = _mm256_mullo_epi32(row_n, dy);
-    n = _mm256_add_epi32(n, row_n);
-    x = _mm256_add_epi32(x, row_x);
-    y = _mm256_add_epi32(y, row_y);
-    xx = _mm256_add_epi32(xx, row_xx);
-    xy = _mm256_add_epi32(xy, _mm256_mullo_epi32(row_x, dy));
-    yy = _mm256_add_epi32(yy, _mm256_mullo_epi32(row_y, dy));
-  }
-  m.n = sum_of(n);
-  m.x = sum_of(x);
-  m.y = sum_of(y);
-  m.xx = sum_of(xx);
-  m.xy = sum_of(xy);
-  m.yy = sum_of(yy);
-}
-
-}  // namespace
 
 Kernels avx2_kernels() {
   return {
       .name = "avx2",
-      .halve_rows = halve_rows,
+      .halve_rows = halve_avx2::halve_rows,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
-      .window_moments = window_moments,
+      .window_moments = moments_avx2::window_moments,
       .thin = thinning::run,
   };
 }

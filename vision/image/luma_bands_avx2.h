@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop of luma_bands.h for the usual range, eight chroma samples at a time: less than half of the hues, no gray,
-// and no largest saturation. Included by the file of AVX2's kernels alone; the results are those of luma_bands_loops.h.
+// and no largest saturation. Included by files of kernels for AVX2 and later alone; the results are those of
+// luma_bands_loops.h.
 #pragma once
 
 #include <immintrin.h>

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/image/bit_ops.h"
 
 using namespace touchline;
@@ -86,10 +86,13 @@ Bits edges_of(const Gray& gray, const Bits& roi, CannyThresholds t) {
   CHECK(find_edges(gray.view(), roi.view(), t, {rows}, weak.view(), edges.view()).finished);
   CHECK(padding_is_clear(edges.view()));
   // With each table of kernels, and without vector registers, the same is seen.
-  Bits weak_here = weak, by_fastest(gray.width, gray.height);
-  CHECK(find_edges(gray.view(), roi.view(), t, {rows}, weak.view(), by_fastest.view(), fastest_kernels()).finished);
-  REQUIRE(by_fastest == edges);
-  REQUIRE(weak == weak_here);
+  const Bits weak_here = weak;
+  for (const Kernels& kernels : test::runnable_tables()) {
+    Bits by_kernels(gray.width, gray.height);
+    CHECK(find_edges(gray.view(), roi.view(), t, {rows}, weak.view(), by_kernels.view(), kernels).finished);
+    REQUIRE(by_kernels == edges);
+    REQUIRE(weak == weak_here);
+  }
   Bits by_words(gray.width, gray.height);
   CHECK(find_edges_by_words(gray.view(), roi.view(), t, {rows}, weak.view(), by_words.view()).finished);
   REQUIRE(by_words == edges);

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/image/bit_ops.h"
 
 using namespace touchline;
@@ -137,7 +137,7 @@ TEST_CASE("the mask is the filter inside the region, pixel by pixel, at every si
                                 {28, 95, 40, 255, 12, 255},
                                 {170, 10, 1, 255, 0, 130},
                                 {100, 160, 255, 255, 255, 255}}) {
-    for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) check_mask(kernels, range);
+    for (const Kernels& kernels : test::all_tables()) check_mask(kernels, range);
   }
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a picture of one colour passes or not as a whole, with every table of
     std::fill(cb.samples.begin(), cb.samples.end(), b);
     std::fill(cr.samples.begin(), cr.samples.end(), r);
     const int expected = in_range(hsv_from_ycbcr(150, b, r), range) ? 256 : 0;
-    for (const Kernels& kernels : {portable_kernels(), word_kernels(), fastest_kernels()}) {
+    for (const Kernels& kernels : test::all_tables()) {
       hsv_in_range({y.view(), cb.view(), cr.view()}, range, region.view(), mask.view(), kernels);
       REQUIRE(count(mask.view()) == expected);
     }

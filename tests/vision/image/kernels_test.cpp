@@ -7,12 +7,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
-#include <string_view>
 #include <vector>
 
 #include "platform/core/rng.h"
-#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/image/frame_fifo.h"
 #include "vision/image/hsv.h"
 #include "vision/image/subsample.h"
@@ -49,8 +48,7 @@ Result subsampled(const FrameView& frame, int width, int height, const Kernels& 
 }
 
 TEST_CASE("kernels subsample as the portable code does") {
-  const Kernels kernels = fastest_kernels();
-  if (std::string_view(kernels.name) == "portable") {
+  if (test::runnable_tables().size() == 1) {
     MESSAGE("skipped: this processor runs the portable code alone");
     return;
   }
@@ -70,15 +68,18 @@ TEST_CASE("kernels subsample as the portable code does") {
       const FrameView frame{format, pixels.data(), s.width, s.height, s.width * 3};
       CAPTURE(s.width);
       CAPTURE(s.work_width);
-      CHECK(subsampled(frame, s.work_width, s.work_height, kernels) ==
-            subsampled(frame, s.work_width, s.work_height, portable_kernels()));
+      const Result portable = subsampled(frame, s.work_width, s.work_height, portable_kernels());
+      for (const Kernels& kernels : test::runnable_tables()) {
+        CAPTURE(kernels.name);
+        CHECK(subsampled(frame, s.work_width, s.work_height, kernels) == portable);
+      }
     }
   }
 }
 
 TEST_CASE("moments of a window are those of its pixels, one by one") {
   constexpr int width = 130, height = 40;
-  for (const Kernels& kernels : {portable_kernels(), fastest_kernels()}) {
+  for (const Kernels& kernels : test::runnable_tables()) {
     for (const int radius : {3, 5, 7, 10, 14}) {
       Rng rng(7);
       test::Bits mask(width, height);
@@ -149,9 +150,10 @@ void check_ridges(const Kernels& kernels) {
 }
 
 TEST_CASE("ridges are those of the definition, with every table of kernels") {
-  check_ridges(portable_kernels());
-  check_ridges(word_kernels());
-  check_ridges(fastest_kernels());
+  for (const Kernels& kernels : test::all_tables()) {
+    CAPTURE(kernels.name);
+    check_ridges(kernels);
+  }
 }
 
 /// White of one row by its definition.
@@ -191,9 +193,10 @@ void check_white(const Kernels& kernels, int width) {
 TEST_CASE("white is that of the definition, with every table of kernels") {
   for (const int width : {1, 63, 64, 65, 95, 320}) {
     CAPTURE(width);
-    check_white(portable_kernels(), width);
-    check_white(word_kernels(), width);
-    check_white(fastest_kernels(), width);
+    for (const Kernels& kernels : test::all_tables()) {
+      CAPTURE(kernels.name);
+      check_white(kernels, width);
+    }
   }
 }
 
@@ -275,9 +278,10 @@ TEST_CASE("the carpet's colours are counted as their definition says, with every
       for (std::uint64_t seed = 0; seed < 20; ++seed) {
         CAPTURE(width);
         CAPTURE(seed);
-        check_carpet(portable_kernels().carpet, width, gate, seed);
-        check_carpet(word_kernels().carpet, width, gate, seed);
-        check_carpet(fastest_kernels().carpet, width, gate, seed);
+        for (const Kernels& kernels : test::all_tables()) {
+          CAPTURE(kernels.name);
+          check_carpet(kernels.carpet, width, gate, seed);
+        }
       }
     }
   }
@@ -292,7 +296,7 @@ TEST_CASE("the mean of four rows is rounded once, with every table of kernels th
         for (std::size_t k = 1; k < 4; ++k) four[k * samples + i] = static_cast<std::uint8_t>(four[i] ^ (seed + k) % 4);
       }
       const std::uint8_t* const rows[4] = {four.data(), &four[samples], &four[2 * samples], &four[3 * samples]};
-      for (const Kernels& kernels : {portable_kernels(), fastest_kernels()}) {
+      for (const Kernels& kernels : test::runnable_tables()) {
         if (kernels.mean_of_four == nullptr) continue;
         std::vector<std::uint8_t> mean(samples);
         kernels.mean_of_four(rows, width, mean.data());

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "platform/processor/fastest_kernels.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "tests/support/thinning_memory.h"
 #include "vision/image/bit_ops.h"
 #include "vision/image/morphology.h"
@@ -50,10 +50,13 @@ Bits plain_thin(Bits image) {
 
 Bits fast_thin(Bits image) {
   OwnThinningMemory thinning(image.width, image.height);
-  Bits by_kernel = image;
+  const Bits before = image;
   CHECK(thin(image.view(), thinning.memory()).finished);
-  CHECK(thin(by_kernel.view(), thinning.memory(), fastest_kernels().thin).finished);
-  CHECK(by_kernel == image);
+  for (const Kernels& kernels : test::runnable_tables()) {
+    Bits by_kernel = before;
+    CHECK(thin(by_kernel.view(), thinning.memory(), kernels.thin).finished);
+    CHECK(by_kernel == image);
+  }
   return image;
 }
 

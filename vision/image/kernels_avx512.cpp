@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels for x86-64 with AVX-512: F, BW, DQ, VL, VBMI and VNNI. This file alone is compiled for it: nothing here may
+// be inlined elsewhere, and no inline function of a header may be called, or the linker could hand its copy to those
+// that run on older processors.
+#include "vision/image/kernels.h"
+
+#if defined(__x86_64__) && defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && \
+    defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VNNI__)
+#include "vision/image/carpet_rows_loops.h"
+#include "vision/image/edge_rows_loops.h"
+#include "vision/image/halve_rows_avx2.h"
+#include "vision/image/luma_bands_avx2.h"
+#include "vision/image/mean_rows_loops.h"
+#include "vision/image/ridge_block_loops.h"
+#include "vision/image/thinning_loops.h"
+#include "vision/image/window_moments_avx2.h"
+
+namespace touchline {
+
+Kernels avx512_kernels() {
+  return {
+      .name = "avx512",
+      .halve_rows = halve_avx2::halve_rows,
+      .mean_of_four = mean_rows::mean_of_four,
+      .find_ridges = ridge::find_ridges,
+      .hsv_rows = bands_avx2::hsv_rows,
+      .white_rows = bands::white_rows,
+      .carpet = carpet::kernels(),
+      .edges = edge_rows::kernels(),
+      .window_moments = moments_avx2::window_moments,
+      .thin = thinning::run,
+  };
+}
+
+}  // namespace touchline
+
+#else
+
+namespace touchline {
+Kernels avx512_kernels() { return {}; }
+}  // namespace touchline
+
+#endif
