@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/circle.h"
 
+#include "platform/core/atan2_lanes.h"
 #include "vision/circle_fit.h"
 #include "vision/field_sight.h"
 
@@ -22,6 +23,9 @@ constexpr int max_gap_bins = 4;              // 20 degrees may be hidden, as by 
 constexpr float max_off_radii = 0.2F;        // of an arc, however little is known of it
 constexpr float beside_radii = 0.35F;
 constexpr int max_beside = 20;  // percent of directions with line points beside the circle alone
+
+/// What is seen in a direction from the centre, as bits.
+enum : std::uint8_t { on = 1, beside = 2 };
 
 /// A point of a segment, `k` quarters of the way along.
 GroundPoint part_of(const LineSegment& s, int k) {
@@ -49,6 +53,7 @@ class CircleFinder {
   [[nodiscard]] bool best_vote(GroundPoint& centre) const;
   float arc(const GroundPoint& centre);
   [[nodiscard]] bool contradicted(const GroundPoint& centre) const;
+  void mark(const GroundPoint& centre, RimPoints& rim, std::uint8_t* bins) const;
   void flag_arcs(const GroundPoint& centre);
   void find_half_line(CircleObservation& circle) const;
 
@@ -174,21 +179,15 @@ float CircleFinder::arc(const GroundPoint& centre) {
 /// Lines that only touch the circle leave it slowly: they have points beside it, in directions where it has none. A
 /// true circle has only the half line beside it.
 bool CircleFinder::contradicted(const GroundPoint& centre) const {
-  enum : std::uint8_t { nothing = 0, on = 1, beside = 2 };
   std::uint8_t bins[circle_bins] = {};
-  const float inner = math::square((0.99F - beside_radii) * parameters_.radius_m);
-  const float outer = math::square((1.01F + beside_radii) * parameters_.radius_m);
+  RimPoints rim;
   for (const ChainPoint& p : lines_.points) {
-    const float squared = math::square(p.ground.x - centre.x) + math::square(p.ground.y - centre.y);
-    if (squared > outer || squared < inner) continue;  // bounds a little wider than those of the root
-    float off = math::sqrt(squared) - parameters_.radius_m;
-    if (math::abs(off) > beside_radii * parameters_.radius_m) continue;
-    float sigma_m = 1.0F;
-    const bool near = fit_.near_circle(p.ground, centre, 1.5F * circle_gate, off, sigma_m);
-    const float angle = math::atan2(p.ground.y - centre.y, p.ground.x - centre.x) + math::pi;
-    const int bin = static_cast<int>(angle / bin_width);
-    bins[bin < circle_bins ? bin : 0] |= near ? on : beside;
+    rim.x[rim.count] = p.ground.x;
+    rim.y[rim.count] = p.ground.y;
+    rim.count += fit_.in_band(math::square(p.ground.x - centre.x) + math::square(p.ground.y - centre.y)) ? 1 : 0;
+    if (rim.count == RimPoints::most) mark(centre, rim, bins);
   }
+  mark(centre, rim, bins);
   int bins_on = 0, bins_beside = 0;
   for (const std::uint8_t b : bins) {
     if ((b & on) != 0) {
@@ -198,6 +197,21 @@ bool CircleFinder::contradicted(const GroundPoint& centre) const {
     }
   }
   return bins_beside > max_beside * bins_on / 100;
+}
+
+/// Marks the directions of some points as those on the circle or beside it.
+void CircleFinder::mark(const GroundPoint& centre, RimPoints& rim, std::uint8_t* bins) const {
+  fit_.measure(centre, rim);
+  int bin[RimPoints::most];
+  for (int i = 0; i < rim.count; ++i) {
+    bin[i] = static_cast<int>((math::atan2_lane(rim.dy[i], rim.dx[i]) + math::pi) / bin_width);
+  }
+  for (int i = 0; i < rim.count; ++i) {
+    if (math::abs(rim.off[i]) > beside_radii * parameters_.radius_m) continue;
+    const bool near = fit_.near_circle(rim.off[i], rim.sigma[i], 1.5F * circle_gate);
+    bins[bin[i] < circle_bins ? bin[i] : 0] |= near ? on : beside;
+  }
+  rim.count = 0;
 }
 
 void CircleFinder::flag_arcs(const GroundPoint& centre) {

@@ -15,51 +15,44 @@ constexpr float sigma_tilt = radians(0.5F);
 }  // namespace
 
 CircleFit::CircleFit(std::span<const ChainPoint> points, const WorkRays& rays, float radius_m, float line_width_m)
-    : points_(points), rays_(rays), radius_m_(radius_m), line_width_m_(line_width_m) {
-  constexpr float slack = 1.01F;  // sigma() adds a little so as not to divide by zero
-  const float height = rays_.projection().pose().height;
-  towards2_ = slack * math::square(rays_.radians_per_pixel() * skeleton_px / height);
-  tilt2_ = slack * math::square(sigma_tilt * radius_m_ / height);
-  rag2_ = slack * math::square(rag_widths * line_width_m_);
-}
+    : points_(points),
+      rays_(rays),
+      radius_m_(radius_m),
+      line_width_m_(line_width_m),
+      band_inner2_(math::square((0.99F - circle_band_radii) * radius_m)),
+      band_outer2_(math::square((1.01F + circle_band_radii) * radius_m)) {}
 
 float CircleFit::sigma(const GroundPoint& p, const GroundPoint& centre) const {
-  return sigma(p, centre, ground_distance(p, centre));
+  RimPoints rim;
+  rim.count = 1;
+  rim.x[0] = p.x;
+  rim.y[0] = p.y;
+  measure(centre, rim);
+  return rim.sigma[0];
 }
 
-/// `apart` is the distance between both.
-float CircleFit::sigma(const GroundPoint& p, const GroundPoint& centre, float apart) const {
+void CircleFit::measure(const GroundPoint& centre, RimPoints& rim) const {
   const CameraPose& pose = rays_.projection().pose();
-  const float x = p.x - pose.x;
-  const float y = p.y - pose.y;
-  const float range = math::hypot(x, y) + 1.0e-6F;
-  const float depth = math::hypot(range, pose.height);
-  const float across = depth * rays_.radians_per_pixel() * skeleton_px;
-  const float towards = across * depth / pose.height;
-  const float radius = apart + 1.0e-6F;
-  const float c = (x * (p.x - centre.x) + y * (p.y - centre.y)) / (range * radius);
-  return math::sqrt(math::square(towards * c) + math::square(across) * (1.0F - c * c) +
-                    math::square(rag_widths * line_width_m_) +
-                    math::square(sigma_tilt * range * radius_m_ / pose.height));
-}
-
-bool CircleFit::near_circle(const GroundPoint& p, const GroundPoint& centre, float sigmas, float& off,
-                            float& sigma_m) const {
-  // Most points are far from the circle: a square tells before a root does. Its bounds are a little wider.
-  const float squared = math::square(p.x - centre.x) + math::square(p.y - centre.y);
-  if (squared > math::square(1.41F * radius_m_) || squared < math::square(0.59F * radius_m_)) {
-    return false;
+  const float pixel = rays_.radians_per_pixel();
+  const float rag2 = math::square(rag_widths * line_width_m_);
+  for (int i = 0; i < rim.count; ++i) {
+    const float x = rim.x[i] - pose.x;
+    const float y = rim.y[i] - pose.y;
+    const float dx = rim.x[i] - centre.x;
+    const float dy = rim.y[i] - centre.y;
+    const float apart = math::hypot(dx, dy);
+    const float range = math::hypot(x, y) + 1.0e-6F;
+    const float depth = math::hypot(range, pose.height);
+    const float across = depth * pixel * skeleton_px;
+    const float towards = across * depth / pose.height;
+    const float c = (x * dx + y * dy) / (range * (apart + 1.0e-6F));
+    rim.dx[i] = dx;
+    rim.dy[i] = dy;
+    rim.off[i] = apart - radius_m_;
+    // The sum is above zero, as `towards` is no less than `across`: a vector's root needs no look at signs.
+    rim.sigma[i] = __builtin_sqrtf(math::square(towards * c) + math::square(across) * (1.0F - c * c) + rag2 +
+                                   math::square(sigma_tilt * range * radius_m_ / pose.height));
   }
-  const float apart = math::sqrt(squared);
-  off = apart - radius_m_;
-  if (math::abs(off) > circle_band_radii * radius_m_) return false;
-  // A bound of sigma squared, seen along the ray, takes neither a root nor a division.
-  const CameraPose& pose = rays_.projection().pose();
-  const float range2 = math::square(p.x - pose.x) + math::square(p.y - pose.y);
-  const float most = towards2_ * math::square(range2 + pose.height * pose.height) + tilt2_ * range2 + rag2_;
-  if (off * off > sigmas * sigmas * most) return false;
-  sigma_m = sigma(p, centre, apart);
-  return math::abs(off) < sigmas * sigma_m;
 }
 
 /// What near_circle() may accept until the centre has moved by the slack.
@@ -75,36 +68,52 @@ void CircleFit::gather(const GroundPoint& centre, Near& near) const {
   }
 }
 
+/// The points that are seen as the circle's. The others add zeros, so that nothing is branched on.
+void CircleFit::add(const GroundPoint& centre, RimPoints& rim, Normals& sums) const {
+  measure(centre, rim);
+  float w[RimPoints::most], ux[RimPoints::most], uy[RimPoints::most], one[RimPoints::most];
+  for (int i = 0; i < rim.count; ++i) {
+    const float apart = rim.off[i] + radius_m_;
+    one[i] = near_circle(rim.off[i], rim.sigma[i], circle_gate) ? 1.0F : 0.0F;
+    w[i] = one[i] / (rim.sigma[i] * rim.sigma[i]);
+    ux[i] = rim.dx[i] / apart;
+    uy[i] = rim.dy[i] / apart;
+  }
+  for (int i = 0; i < rim.count; ++i) {
+    sums.information.xx += w[i] * ux[i] * ux[i];
+    sums.information.xy += w[i] * ux[i] * uy[i];
+    sums.information.yy += w[i] * uy[i] * uy[i];
+    sums.bx += w[i] * ux[i] * rim.off[i];
+    sums.by += w[i] * uy[i] * rim.off[i];
+    sums.squares += w[i] * rim.off[i] * rim.off[i];
+    sums.count += one[i];
+  }
+  rim.count = 0;
+}
+
 /// Gauss-Newton on the centre; the radius is known.
 bool CircleFit::refine(GroundPoint& centre, Sym2& information, float& chi) const {
   Near near;
   gather(centre, near);
+  RimPoints rim;
   for (int n = 0; n < refinements; ++n) {
     const GroundPoint before = centre;
     if (ground_distance(centre, near.centre) > 0.9F * slack_radii * radius_m_) gather(centre, near);
-    information = {};
-    float bx = 0.0F, by = 0.0F, sum = 0.0F, weights = 0.0F;
+    Normals sums;
     for (const std::uint16_t i : near.points) {
-      const ChainPoint& p = points_[i];
-      float off = 0.0F, sigma_m = 1.0F;
-      if (!near_circle(p.ground, centre, circle_gate, off, sigma_m)) continue;
-      const float d = off + radius_m_;
-      const float ux = (p.ground.x - centre.x) / d;
-      const float uy = (p.ground.y - centre.y) / d;
-      const float w = 1.0F / (sigma_m * sigma_m);
-      information.xx += w * ux * ux;
-      information.xy += w * ux * uy;
-      information.yy += w * uy * uy;
-      bx += w * ux * off;
-      by += w * uy * off;
-      sum += w * off * off;
-      weights += 1.0F;
+      const GroundPoint& p = points_[i].ground;
+      rim.x[rim.count] = p.x;
+      rim.y[rim.count] = p.y;
+      rim.count += in_band(math::square(p.x - centre.x) + math::square(p.y - centre.y)) ? 1 : 0;
+      if (rim.count == RimPoints::most) add(centre, rim, sums);
     }
+    add(centre, rim, sums);
+    information = sums.information;
     const float det = information.xx * information.yy - information.xy * information.xy;
-    if (weights < 8.0F || !(det > 1.0e-4F * math::square(information.xx + information.yy))) return false;
-    centre.x += (bx * information.yy - by * information.xy) / det;
-    centre.y += (by * information.xx - bx * information.xy) / det;
-    chi = math::sqrt(sum / weights);
+    if (sums.count < 8.0F || !(det > 1.0e-4F * math::square(information.xx + information.yy))) return false;
+    centre.x += (sums.bx * information.yy - sums.by * information.xy) / det;
+    centre.y += (sums.by * information.xx - sums.bx * information.xy) / det;
+    chi = math::sqrt(sums.squares / sums.count);
     if (centre.x == before.x && centre.y == before.y) break;  // the next step would say the same
   }
   return true;
