@@ -9,29 +9,38 @@ namespace {
 
 struct Gather {
   ParticleView particles;
+  const float* weights;  // not logarithms
   ClusterIndex& index;
   float radius, angle;
 
-  [[nodiscard]] bool near(int i, const Pose2& p) const {
-    return math::square(particles.x[i] - p.x) + math::square(particles.y[i] - p.y) < radius * radius &&
-           math::abs(angle_difference(particles.theta[i], p.theta)) < angle;
+  /// Calls `take(i, dx, dy, dt)` for each free particle near `about`, with its difference to it: pi is no edge.
+  template <typename Take>
+  void for_each_near(const Pose2& about, Take take) const {
+    const float radius2 = radius * radius;
+    for (int i = 0; i < particles.count; ++i) {
+      if (index[static_cast<std::size_t>(i)] != no_cluster) continue;
+      const float dx = particles.x[i] - about.x;
+      const float dy = particles.y[i] - about.y;
+      if (!(dx * dx + dy * dy < radius2)) continue;
+      const float dt = angle_difference(particles.theta[i], about.theta);
+      if (math::abs(dt) < angle) take(i, dx, dy, dt);
+    }
   }
 
-  /// Weighted mean of the free particles near `about`; angles as differences to it, so that pi is no edge.
+  /// Weighted mean of the free particles near `about`.
   Cluster mean_near(const Pose2& about) const {
     Cluster c;
     float sx = 0.0F;
     float sy = 0.0F;
     float st = 0.0F;
-    for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] != no_cluster || !near(i, about)) continue;
-      const float w = math::exp(particles.log_weight[i]);
+    for_each_near(about, [&](int i, float dx, float dy, float dt) {
+      const float w = weights[i];
       c.mass += w;
-      sx += w * (particles.x[i] - about.x);
-      sy += w * (particles.y[i] - about.y);
-      st += w * angle_difference(particles.theta[i], about.theta);
+      sx += w * dx;
+      sy += w * dy;
+      st += w * dt;
       ++c.count;
-    }
+    });
     c.mean = about;
     if (c.mass > 0.0F) {
       c.mean = {about.x + sx / c.mass, about.y + sy / c.mass, wrap_angle(about.theta + st / c.mass)};
@@ -41,20 +50,16 @@ struct Gather {
 
   void take(Cluster& c, std::uint8_t id) {
     PoseCovariance s;
-    for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] != no_cluster || !near(i, c.mean)) continue;
+    for_each_near(c.mean, [&](int i, float dx, float dy, float dt) {
       index[static_cast<std::size_t>(i)] = id;
-      const float w = math::exp(particles.log_weight[i]) / c.mass;
-      const float dx = particles.x[i] - c.mean.x;
-      const float dy = particles.y[i] - c.mean.y;
-      const float dt = angle_difference(particles.theta[i], c.mean.theta);
+      const float w = weights[i] / c.mass;
       s.xx += w * dx * dx;
       s.xy += w * dx * dy;
       s.yy += w * dy * dy;
       s.xt += w * dx * dt;
       s.yt += w * dy * dt;
       s.tt += w * dt * dt;
-    }
+    });
     c.covariance = s;
   }
 
@@ -91,13 +96,17 @@ void sort_heaviest_first(ClusterList& clusters, ClusterIndex& index, int count) 
 
 }  // namespace
 
-void find_clusters(ParticleView particles, float radius, float angle, ClusterList& clusters, ClusterIndex& index) {
+void find_clusters(ParticleView particles, float radius, float angle, float* scratch, ClusterList& clusters,
+                   ClusterIndex& index) {
   clusters.clear();
   index.fill(no_cluster);
   normalize_log_weights(particles);
-  Gather gather{particles, index, radius, angle};
   float total = 0.0F;
-  for (int i = 0; i < particles.count; ++i) total += math::exp(particles.log_weight[i]);
+  for (int i = 0; i < particles.count; ++i) {
+    scratch[i] = math::exp(particles.log_weight[i]);
+    total += scratch[i];
+  }
+  Gather gather{particles, scratch, index, radius, angle};
   while (!clusters.full()) {
     const int seed = gather.heaviest_free();
     if (seed < 0) break;

@@ -25,6 +25,8 @@ using ClusterIndex = std::array<std::uint8_t, max_particles>;  // of each partic
 
 /// Greedy: the heaviest particle not yet taken gathers all within `radius` metres and `angle` radians of it, and then
 /// of their mean; heaviest cluster first. Log weights are normalised as a side effect. O(particles x clusters).
-void find_clusters(ParticleView particles, float radius, float angle, ClusterList& clusters, ClusterIndex& index);
+/// `scratch` has room for a number of each particle.
+void find_clusters(ParticleView particles, float radius, float angle, float* scratch, ClusterList& clusters,
+                   ClusterIndex& index);
 
 }  // namespace touchline

@@ -99,7 +99,7 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   const float share = frames_ == 0 ? first_share : augmented_.random_share(config_.augmented);
   const bool unsure = !last_.valid || belief_ < config_.confident;
   if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? unsure_share : 0.0F));
-  find_clusters(particles(), cluster_radius_m, cluster_angle, clusters_, cluster_index_);
+  find_clusters(particles(), cluster_radius_m, cluster_angle, scratch_.log_weight.data(), clusters_, cluster_index_);
   refine_clusters(vision, yaw);
   balance_twins(yaw);
   share_out_mass();
@@ -267,6 +267,9 @@ void Localizer::share_out_mass() {
 /// Every cluster's particles share its mass evenly, and stand about its refined pose.
 void Localizer::sharpen_particles(const ClusterIndex& index) {
   const ParticleView p = particles();
+  std::size_t last = no_cluster;  // neighbours are mostly of one cluster
+  float log_weight = stray_log_weight;
+  Factor f{};
   for (int i = 0; i < p.count; ++i) {
     const std::size_t k = index[static_cast<std::size_t>(i)];
     if (k == no_cluster) {
@@ -274,10 +277,14 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
       continue;
     }
     const Mode& m = modes_[k];
-    const auto count = static_cast<float>(clusters_[k].count);
-    p.log_weight[i] = math::log(math::max(m.mass / math::max(count, 1.0F), 1e-12F));
+    if (k != last) {
+      last = k;
+      const auto count = static_cast<float>(clusters_[k].count);
+      log_weight = math::log(math::max(m.mass / math::max(count, 1.0F), 1e-12F));
+      f = square_root(m.refined.covariance);
+    }
+    p.log_weight[i] = log_weight;
     if (!m.refined.converged) continue;
-    const Factor f = square_root(m.refined.covariance);
     const float a = rng_.gaussian();
     const float b = rng_.gaussian();
     const float c = rng_.gaussian();

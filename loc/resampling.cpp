@@ -39,9 +39,15 @@ void resample_low_variance(ParticleView particles, int keep, ParticleView scratc
   if (keep == 0) return;
   normalize_log_weights(particles);
   float total = 0.0F;
+  float last = 0.0F;  // normalised, the best weight: neighbours are often equal
+  float weight = 1.0F;
   for (int i = 0; i < particles.count; ++i) {
-    scratch.log_weight[i] = math::exp(particles.log_weight[i]);  // linear weight, for this call only
-    total += scratch.log_weight[i];
+    if (particles.log_weight[i] != last) {
+      last = particles.log_weight[i];
+      weight = math::exp(last);
+    }
+    scratch.log_weight[i] = weight;  // linear weight, for this call only
+    total += weight;
   }
   const float step = total / static_cast<float>(keep);
   const float offset = step * rng.uniform();

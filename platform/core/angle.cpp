@@ -5,8 +5,7 @@
 
 namespace touchline {
 
-float wrap_angle(float angle) {
-  if (angle > -math::pi && angle <= math::pi) return angle;
+float wrap_far_angle(float angle) {
   if (angle == -math::pi) return math::pi;
   if (!(math::abs(angle) < 1.0e9F)) return angle != angle ? angle : 0.0F;
   // The nearest whole number of turns is taken off in double: its 53 bits leave 1e-7 even at 1e9.

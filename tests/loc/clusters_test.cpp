@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <memory>
 
 #include "platform/core/rng.h"
@@ -27,7 +28,8 @@ TEST_CASE("two modes are two clusters, and the heavier is first though it has fe
   scatter(p, 70, 100, {2.0F, -1.0F, math::pi}, 0.03F, 0.0F, rng);  // at pi, where angles wrap
   ClusterList clusters;
   ClusterIndex index;
-  find_clusters(p, 0.3F, radians(15.0F), clusters, index);
+  std::array<float, max_particles> scratch;
+  find_clusters(p, 0.3F, radians(15.0F), scratch.data(), clusters, index);
   REQUIRE(clusters.size() == 2);
   CHECK(clusters[0].count == 30);
   CHECK(clusters[0].mean.x == doctest::Approx(2.0).epsilon(0.02));
@@ -47,7 +49,8 @@ TEST_CASE("the same place with another heading is another cluster") {
   scatter(p, 20, 40, {0.0F, 0.0F, math::pi}, 0.02F, 0.0F, rng);
   ClusterList clusters;
   ClusterIndex index;
-  find_clusters(p, 0.3F, radians(15.0F), clusters, index);
+  std::array<float, max_particles> scratch;
+  find_clusters(p, 0.3F, radians(15.0F), scratch.data(), clusters, index);
   CHECK(clusters.size() == 2);
 }
 
@@ -61,7 +64,8 @@ TEST_CASE("a uniform cloud fills the list and leaves the rest out") {
   }
   ClusterList clusters;
   ClusterIndex index;
-  find_clusters(p, 0.3F, radians(15.0F), clusters, index);
+  std::array<float, max_particles> scratch;
+  find_clusters(p, 0.3F, radians(15.0F), scratch.data(), clusters, index);
   CHECK(clusters.full());
   for (std::size_t i = 1; i < clusters.size(); ++i) CHECK(clusters[i].mass <= clusters[i - 1].mass);
 }
