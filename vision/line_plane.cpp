@@ -4,10 +4,6 @@
 namespace touchline {
 namespace {
 
-// A skeleton point lies within half a pixel of where thinning sees the middle, and thinning within half a pixel of it.
-constexpr float tolerance_px = 1.2F;
-// The edges of a wide line are ragged by texture and light; its middle moves by a part of the width.
-constexpr float tolerance_widths = 0.12F;
 // Thinning moves the ends of a stretch between two forks toward their sharp corners, and so turns short ones.
 constexpr float short_widths = 5.0F;
 constexpr float short_bend_widths = 0.7F;
@@ -87,12 +83,6 @@ bool join(const WorkRays& rays, const FieldView& field, float line_width_m, Line
 }
 
 }  // namespace
-
-float least_line_tolerance(const WorkRays& rays) { return tolerance_px * rays.radians_per_pixel(); }
-
-float line_tolerance(const WorkRays& rays, float line_width_m, float depth) {
-  return least_line_tolerance(rays) + tolerance_widths * line_width_m / depth;
-}
 
 bool measure_segment(const WorkRays& rays, float line_width_m, const Vec3& first, const Vec3& last, LineSegment& s) {
   const Vec3 ends[2] = {first, last};

@@ -39,10 +39,17 @@ class PlaneFit {
   float xx_ = 0.0F, xz_ = 0.0F, zz_ = 0.0F, xy_ = 0.0F, zy_ = 0.0F;
 };
 
+// A skeleton point lies within half a pixel of where thinning sees the middle, and thinning within half a pixel of it.
+inline constexpr float line_tolerance_px = 1.2F;
+// The edges of a wide line are ragged by texture and light; its middle moves by a part of the width.
+inline constexpr float line_tolerance_widths = 0.12F;
+
 /// How far a skeleton point may lie off its line, as an angle, seen from `depth` metres.
-float line_tolerance(const WorkRays& rays, float line_width_m, float depth);
+inline float line_tolerance(const WorkRays& rays, float line_width_m, float depth) {
+  return line_tolerance_px * rays.radians_per_pixel() + line_tolerance_widths * line_width_m / depth;
+}
 /// Its least, at any depth.
-float least_line_tolerance(const WorkRays& rays);
+inline float least_line_tolerance(const WorkRays& rays) { return line_tolerance_px * rays.radians_per_pixel(); }
 
 /// What follows from segment.normal and the rays near its ends; false when it is too short or not on the ground.
 bool measure_segment(const WorkRays& rays, float line_width_m, const Vec3& first, const Vec3& last,

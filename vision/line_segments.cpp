@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/line_segments.h"
 
+#include <bit>
 #include <cassert>
+#include <cstdint>
 
 #include "vision/line_plane.h"
 #include "vision/pixel_rays.h"
@@ -9,12 +11,11 @@
 namespace touchline {
 namespace {
 
-using RayPoint = LineSegments::RayPoint;
-
 // Thinning rounds a corner within half a width of it.
 constexpr float trim_widths = 0.6F;
 constexpr float trim_px = 2.0F;
 constexpr int min_points = 5;
+constexpr int points_at_once = 16;
 
 float distance(const GroundPoint& a, const GroundPoint& b) { return math::hypot(a.x - b.x, a.y - b.y); }
 
@@ -34,12 +35,19 @@ class SegmentFinder {
 
  private:
   void read_chain(std::uint16_t edge, std::uint16_t start);
-  void append(GridPoint p, bool& gap);
-  void flush(bool start_is_fork, bool end_is_fork);
+  void read_edge(std::span<const GridPoint> line, bool forward);
+  void place_on_ground();
+  void split_at_gaps(bool end_is_fork);
+  void add_stretch(int first, int last);
   void split(int first, int last);
+  /// The point that was found: how far it is off, in parts of its tolerance, and which it is.
+  struct Farthest {
+    float off = 1.0F;
+    int at = -1;
+  };
   [[nodiscard]] int farthest(int first, int last) const;
+  void look_farther(const Vec3& normal, int begin, int end, Farthest& farthest) const;
   void fit(int first, int last);
-  [[nodiscard]] float depth(int i) const;
   void trim(int& first, int& last) const;
 
   const NodeGraphView& graph_;
@@ -50,10 +58,11 @@ class SegmentFinder {
   std::span<std::uint8_t> edge_done_;
   LineSegments& out_;
   std::uint16_t chain_ = 0;
-  int stride_ = 1;        // of the chain's points
+  int count_ = 0;         // points of the chain that was read
+  int stride_ = 1;        // of them along the skeleton
   int curve_stride_ = 1;  // of the points kept for the circle
-  int to_next_ = 0;       // points of the chain that are skipped before the next
-  int to_next_curve_ = 0;
+  int to_next_ = 0;       // pixels of the chain that are skipped before the next point
+  int stretch_first_ = 0, stretch_last_ = 0;
   bool start_is_fork_ = false;
   bool end_is_fork_ = false;
 };
@@ -87,14 +96,13 @@ void SegmentFinder::run() {
 
 /// Reads edge after edge through nodes of degree 2, from the end at node `start` (no_node: the free end).
 void SegmentFinder::read_chain(std::uint16_t edge, std::uint16_t start) {
-  out_.chain.clear();
-  to_next_ = to_next_curve_ = 0;
+  count_ = 0;
+  to_next_ = 0;
   start_is_fork_ = start != no_node && graph_.nodes[start].degree > 2;
   std::size_t length = 0;
   for (int pass = 0; pass < 2; ++pass) {  // first the length, so that the points fit
     std::uint16_t e = edge;
     std::uint16_t from = start;
-    bool gap = false;
     for (std::size_t n = 0; n < graph_.edges.size(); ++n) {  // no edge twice
       const GraphEdge& it = graph_.edges[e];
       const bool forward = it.node_a == from && !(from == no_node);
@@ -103,7 +111,7 @@ void SegmentFinder::read_chain(std::uint16_t edge, std::uint16_t start) {
         length += line.size();
       } else {
         edge_done_[e] = 1;
-        for (std::size_t i = 0; i < line.size(); ++i) append(line[forward ? i : line.size() - 1 - i], gap);
+        read_edge(line, forward);
       }
       from = forward ? it.node_b : it.node_a;
       if (from == no_node || graph_.nodes[from].degree != 2) break;
@@ -113,107 +121,142 @@ void SegmentFinder::read_chain(std::uint16_t edge, std::uint16_t start) {
       e = next;
     }
     stride_ = static_cast<int>(length / max_chain_points) + 1;
-    if (pass == 1) flush(start_is_fork_, from != no_node && graph_.nodes[from].degree > 2);
+    if (pass == 1) split_at_gaps(from != no_node && graph_.nodes[from].degree > 2);
   }
 }
 
-/// Adds a point, or ends the stretch where the ground ends.
-void SegmentFinder::append(GridPoint p, bool& gap) {
-  const bool for_curve = to_next_curve_ == 0;
-  to_next_curve_ = (for_curve ? curve_stride_ : to_next_curve_) - 1;
-  const bool taken = to_next_ == 0;
-  to_next_ = (taken ? stride_ : to_next_) - 1;
-  if (!taken) return;
-  RayPoint point;
-  const GroundProjection& projection = rays_.projection();
-  const bool seen = pixel_rays_.ray(p, point.ray) && projection.intersect_ground(point.ray, point.ground);
-  const float range = math::hypot(point.ground.x - projection.pose().x, point.ground.y - projection.pose().y);
-  if (!seen || range > parameters_.max_range_m) {
-    if (!gap) flush(start_is_fork_, false);
-    out_.chain.clear();
+/// The rays of every stride_-th pixel.
+void SegmentFinder::read_edge(std::span<const GridPoint> line, bool forward) {
+  const int size = static_cast<int>(line.size());
+  int i = to_next_;
+  for (; i < size; i += stride_) {
+    Vec3 ray;
+    if (!pixel_rays_.ray(line[static_cast<std::size_t>(forward ? i : size - 1 - i)], ray)) ray.z = 0.0F;
+    out_.chain.x[count_] = ray.x;
+    out_.chain.y[count_] = ray.y;
+    out_.chain.z[count_] = ray.z;
+    ++count_;  // with the stride that was chosen for it, a chain fits
+  }
+  to_next_ = i - size;
+}
+
+/// As GroundProjection::intersect_ground(), for all points of the chain.
+void SegmentFinder::place_on_ground() {
+  const CameraPose& pose = rays_.projection().pose();
+  LineSegments::Chain& chain = out_.chain;
+  for (int i = 0; i < count_; ++i) {
+    const float reach = pose.height / -chain.z[i];
+    chain.ground_x[i] = pose.x + reach * chain.x[i];
+    chain.ground_y[i] = pose.y + reach * chain.y[i];
+    const float range = math::hypot(chain.ground_x[i] - pose.x, chain.ground_y[i] - pose.y);
+    const bool seen = (chain.z[i] < -GroundProjection::min_descent) & !(range > parameters_.max_range_m);
+    chain.z[i] = seen ? chain.z[i] : 0.0F;
+  }
+}
+
+/// A stretch ends where the ground ends.
+void SegmentFinder::split_at_gaps(bool end_is_fork) {
+  place_on_ground();
+  int first = 0, to_next_curve = 0;
+  for (int i = 0; i < count_; ++i) {
+    const bool seen = out_.chain.z[i] < 0.0F;
+    if (seen && to_next_curve == 0) out_.points.push_back({out_.chain.ground(i), chain_});
+    for (to_next_curve -= stride_; to_next_curve < 0;) to_next_curve += curve_stride_;
+    if (seen) continue;
+    end_is_fork_ = false;
+    if (i == 0 || out_.chain.z[i - 1] < 0.0F) add_stretch(first, i - 1);
+    first = i + 1;
     start_is_fork_ = false;
-    gap = true;
-    return;
   }
-  gap = false;
-  out_.chain.push_back(point);
-  if (for_curve) out_.points.push_back({point.ground, chain_});
-}
-
-void SegmentFinder::flush(bool start_is_fork, bool end_is_fork) {
-  start_is_fork_ = start_is_fork;
   end_is_fork_ = end_is_fork;
-  const int count = static_cast<int>(out_.chain.size());
-  if (count >= min_points) split(0, count - 1);
-  ++chain_;
+  add_stretch(first, count_ - 1);
 }
 
-/// Distance of a point from the camera, metres.
-float SegmentFinder::depth(int i) const {
-  return rays_.projection().pose().height / -out_.chain[static_cast<std::size_t>(i)].ray.z;
+void SegmentFinder::add_stretch(int first, int last) {
+  stretch_first_ = first;
+  stretch_last_ = last;
+  split(first, last);
+  ++chain_;
 }
 
 /// The point that is farthest from the plane through both ends, in parts of its tolerance; -1 when all are inside it.
 int SegmentFinder::farthest(int first, int last) const {
-  const Vec3 across =
-      cross(out_.chain[static_cast<std::size_t>(first)].ray, out_.chain[static_cast<std::size_t>(last)].ray);
+  const LineSegments::Chain& chain = out_.chain;
+  const Vec3 across = cross(chain.ray(first), chain.ray(last));
   // A chain that comes back to where it began has no chord: halve it.
   const bool closed =
       last - first > 2 * min_points && dot(across, across) < math::square(3.0F * rays_.radians_per_pixel());
   if (closed) return (first + last) / 2;
   const Vec3 normal = normalized(across);
   const float least_allowed = least_line_tolerance(rays_);
-  float worst = 1.0F;
-  int at = -1;
-  for (int i = first + 1; i < last; ++i) {
-    const float off = math::abs(dot(normal, out_.chain[static_cast<std::size_t>(i)].ray));
-    if (off <= worst * least_allowed) continue;  // most are: their depth, a division each, need not be known
-    const float allowed = line_tolerance(rays_, parameters_.line_width_m, depth(i));
-    if (off > worst * allowed) {
-      worst = off / allowed;
-      at = i;
-    }
+  Farthest farthest;
+  for (int begin = first + 1; begin < last; begin += points_at_once) {
+    const int end = begin + points_at_once < last ? begin + points_at_once : last;
+    const float sure = farthest.off * least_allowed;
+    int beyond = 0;  // most blocks have none: their depths, two divisions each, need not be known
+    for (int i = begin; i < end; ++i) beyond += math::abs(dot(normal, chain.ray(i))) > sure ? 1 : 0;
+    if (beyond != 0) look_farther(normal, begin, end, farthest);
   }
-  return at;
+  return farthest.at;
+}
+
+/// The same among a few points. All their distances are worked out at once; then those are compared that can win.
+void SegmentFinder::look_farther(const Vec3& normal, int begin, int end, Farthest& farthest) const {
+  constexpr float slack = 1.0e-5F;  // much more than rounding
+  const LineSegments::Chain& chain = out_.chain;
+  const float height = rays_.projection().pose().height;
+  float off[points_at_once], allowed[points_at_once];
+  std::int32_t parts[points_at_once] = {};  // off / allowed; in bits, whose order is that of numbers above zero
+  for (int i = begin; i < end; ++i) {
+    off[i - begin] = math::abs(dot(normal, chain.ray(i)));
+    allowed[i - begin] = line_tolerance(rays_, parameters_.line_width_m, height / -chain.z[i]);
+    parts[i - begin] = std::bit_cast<std::int32_t>(off[i - begin] / allowed[i - begin]);
+  }
+  std::int32_t most = 0;
+  for (int i = 0; i < end - begin; ++i) most = parts[i] > most ? parts[i] : most;
+  const float least = (1.0F - slack) * math::max(std::bit_cast<float>(most), farthest.off);
+  for (int i = 0; i < end - begin; ++i) {
+    if (std::bit_cast<float>(parts[i]) < least || off[i] <= farthest.off * allowed[i]) continue;
+    farthest = {off[i] / allowed[i], begin + i};
+  }
 }
 
 void SegmentFinder::split(int first, int last) {
   struct Range {
     int first, last;
   };
-  // Each split leaves the nearer part on the stack, and parts have min_points or more.
-  StaticVector<Range, max_chain_points / (min_points - 1)> stack;
-  stack.push_back({first, last});
-  for (std::size_t n = 0; n < 2 * max_chain_points && !stack.empty(); ++n) {
-    const Range r = stack.back();
-    stack.pop_back();
-    if (r.last - r.first + 1 < min_points) continue;
+  // Parts share no more than their ends.
+  Range stack[max_chain_points / (min_points - 1)];
+  int waiting = 0;
+  const auto push = [&](const Range& r) {
+    if (r.last - r.first + 1 >= min_points) stack[waiting++] = r;
+  };
+  push({first, last});
+  while (waiting > 0) {  // each split makes two smaller parts of one
+    const Range r = stack[--waiting];
     const int at = farthest(r.first, r.last);
     if (at < 0) {
       fit(r.first, r.last);
       continue;
     }
-    stack.push_back({at, r.last});
-    stack.push_back({r.first, at});
+    push({at, r.last});
+    push({r.first, at});
   }
 }
 
 /// Leaves out what thinning has rounded, at corners and forks; free ends are as good as the rest.
 void SegmentFinder::trim(int& first, int& last) const {
-  const int count = static_cast<int>(out_.chain.size());
   const auto near = [&](int i, int end) {
-    const float widths =
-        distance(out_.chain[static_cast<std::size_t>(i)].ground, out_.chain[static_cast<std::size_t>(end)].ground) /
-        parameters_.line_width_m;
+    const float widths = distance(out_.chain.ground(i), out_.chain.ground(end)) / parameters_.line_width_m;
     const int steps = i > end ? i - end : end - i;
     return widths < trim_widths || static_cast<float>(steps * stride_) < trim_px;
   };
   int a = first;
   int b = last;
-  if (first > 0 || start_is_fork_) {
+  if (first > stretch_first_ || start_is_fork_) {
     while (a < last && near(a, first)) ++a;
   }
-  if (last + 1 < count || end_is_fork_) {
+  if (last < stretch_last_ || end_is_fork_) {
     while (b > a && near(b, last)) --b;
   }
   if (b - a + 1 >= min_points && b - a >= (last - first) / 3) {
@@ -223,14 +266,15 @@ void SegmentFinder::trim(int& first, int& last) const {
 }
 
 void SegmentFinder::fit(int first, int last) {
-  const auto ray = [this](int i) -> const Vec3& { return out_.chain[static_cast<std::size_t>(i)].ray; };
+  const LineSegments::Chain& chain = out_.chain;
   int from = first;
   int to = last;
   trim(from, to);
-  PlaneFit plane(ray(from), ray(to));
-  for (int i = from; i <= to; ++i) plane.add(ray(i));
+  PlaneFit plane(chain.ray(from), chain.ray(to));
+  for (int i = from; i <= to; ++i) plane.add(chain.ray(i));
   LineSegment s;
-  if (!plane.solve(s.normal) || !measure_segment(rays_, parameters_.line_width_m, ray(first), ray(last), s)) return;
+  if (!plane.solve(s.normal) || !measure_segment(rays_, parameters_.line_width_m, chain.ray(first), chain.ray(last), s))
+    return;
   s.chain = chain_;
   s.points = static_cast<std::uint16_t>((last - first + 1) * stride_);
   out_.segments.push_back(s);

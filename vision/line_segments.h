@@ -40,12 +40,15 @@ inline constexpr std::size_t max_curve_points = 768;  // of the frame; chains ar
 struct LineSegments {
   StaticVector<LineSegment, max_segments> segments;
   StaticVector<ChainPoint, max_curve_points> points;  // for the circle's fit
-  // Working memory: the points of one chain, and which edges belong to a chain that has been read.
-  struct RayPoint {
-    Vec3 ray;
-    GroundPoint ground;
+  // Working memory: the points of one chain, side by side for vectors.
+  struct Chain {
+    float x[max_chain_points] = {}, y[max_chain_points] = {};  // rays, robot's axes
+    float z[max_chain_points] = {};                            // 0 where no ground is seen in reach
+    float ground_x[max_chain_points] = {}, ground_y[max_chain_points] = {};
+    [[nodiscard]] Vec3 ray(int i) const { return {x[i], y[i], z[i]}; }
+    [[nodiscard]] GroundPoint ground(int i) const { return {ground_x[i], ground_y[i]}; }
   };
-  StaticVector<RayPoint, max_chain_points> chain;
+  Chain chain;
 };
 
 struct LineSegmentParameters {

@@ -25,6 +25,10 @@ Mat3 robot_from_camera(const CameraPose& pose);
 /// A lens in a pose: everything needed to go between pixels and the ground for one frame.
 class GroundProjection {
  public:
+  // Sine of the smallest angle below the horizon that still counts as looking at the ground: 1e-4 is 5 km away at a
+  // height of half a metre, and rounding of the ray stays a thousandth of it.
+  static constexpr float min_descent = 1.0e-4F;
+
   GroundProjection() = default;
   GroundProjection(const Lens& lens, const CameraPose& pose);
 
@@ -52,10 +56,6 @@ class GroundProjection {
   [[nodiscard]] const Lens& lens() const { return lens_; }
 
  private:
-  // Sine of the smallest angle below the horizon that still counts as looking at the ground: 1e-4 is 5 km away at a
-  // height of half a metre, and rounding of the ray stays a thousandth of it.
-  static constexpr float min_descent = 1.0e-4F;
-
   [[nodiscard]] Vec3 ray_slope(const PixelPoint& pixel, const Vec3& centre, float du, float dv) const;
 
   Lens lens_{};
