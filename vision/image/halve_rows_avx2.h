@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Averaging, subsampling and change of colours of four rows of the usual frames (HalvedRows, kernels.h) in registers of
-// 32 bytes. Included by files of kernels for AVX2 and later alone: everything is local to the file.
+// Averaging, subsampling and change of colours of the usual frames (HalvedFrame, kernels.h), eight working columns of
+// two rows at a time. Included by files of kernels for AVX2 and later alone: everything is local to the file.
 #pragma once
 
 #include <immintrin.h>
@@ -95,6 +95,18 @@ inline void prefetch(const std::uint8_t* row, std::ptrdiff_t offset) {
   _mm_prefetch(reinterpret_cast<const char*>(address), _MM_HINT_T0);  // NOLINT(performance-no-int-to-ptr)
 }
 
+/// Two working rows and the four source rows that they are made of.
+struct HalvedRows {
+  const std::uint8_t* source[4];
+  int source_bytes;  // of each that may be read
+  const std::uint16_t* first_column;
+  const std::int8_t* weights;
+  int columns, period;
+  std::uint8_t* y[2];
+  std::uint8_t* cb;
+  std::uint8_t* cr;
+};
+
 /// Columns whose windows may be read with sixteen bytes inside the row.
 inline int inner_columns(const HalvedRows& r) {
   int columns = r.columns;
@@ -138,11 +150,9 @@ struct Job {
   job->eight({copies[0], copies[1]}, {copies[2], copies[3]}, first, x, phase);
 }
 
-inline void halve_rows(const HalvedRows& r) {
-  const Job job{r, _mm256_set1_epi16(static_cast<short>(r.scale)), make_row(r.matrix.y), make_row(r.matrix.cb),
-                make_row(r.matrix.cr)};
-  const int columns = r.columns;
-  const int period = r.period;
+inline void halve_rows(const Job& of_frame) {
+  const Job job = of_frame;
+  const HalvedRows& r = job.rows;
   const int inner = inner_columns(r);
   int phase = 0;
   int x = 0;
@@ -150,16 +160,37 @@ inline void halve_rows(const HalvedRows& r) {
   const std::ptrdiff_t next_rows = 2 * (r.source[2] - r.source[0]);
   for (; x < inner; x += 8) {
     for (const std::uint8_t* row : r.source) prefetch(row, next_rows + 3 * r.first_column[x]);
-    job.eight({job.rows.source[0], job.rows.source[1]}, {job.rows.source[2], job.rows.source[3]},
-              job.rows.first_column + x, x, phase);
+    job.eight({r.source[0], r.source[1]}, {r.source[2], r.source[3]}, r.first_column + x, x, phase);
     phase += 8;
-    while (phase >= period) phase -= period;
+    while (phase >= r.period) phase -= r.period;
   }
-  const Job copy = job;  // its address is taken: only of the copy
-  for (; x < columns; x += 8) {
-    last_columns(&copy, x, phase);
+  for (; x < r.columns; x += 8) {
+    last_columns(&of_frame, x, phase);  // the address of the copy would be known to stores of bytes
     phase += 8;
-    while (phase >= period) phase -= period;
+    while (phase >= r.period) phase -= r.period;
+  }
+}
+
+inline void halve_frame(const HalvedFrame& f) {
+  Job job{{},
+          _mm256_set1_epi16(static_cast<short>(f.scale)),
+          make_row(f.matrix.y),
+          make_row(f.matrix.cb),
+          make_row(f.matrix.cr)};
+  HalvedRows& rows = job.rows;
+  rows.first_column = f.first_column;
+  rows.weights = f.weights;
+  rows.columns = f.columns;
+  rows.period = f.period;
+  for (int y = 0; y < f.rows; y += 2) {
+    for (int k = 0; k < 4; ++k) rows.source[k] = f.source + (2 * y + k) * f.source_stride;
+    const bool last = y + 2 >= f.rows;  // behind the others there is another row
+    rows.source_bytes = f.source_bytes + (last ? 0 : static_cast<int>(f.source_stride));
+    rows.y[0] = f.y + y * f.y_stride;
+    rows.y[1] = rows.y[0] + f.y_stride;
+    rows.cb = f.cb + y / 2 * f.cb_stride;
+    rows.cr = f.cr + y / 2 * f.cr_stride;
+    halve_rows(job);
   }
 }
 

@@ -17,20 +17,24 @@
 
 namespace touchline {
 
-/// Two working rows of a frame that is twice as high as the working image, in rows of three interleaved bytes.
-struct HalvedRows {
-  const std::uint8_t* source[4] = {};           // two for the upper working row, two for the lower
-  int source_bytes = 0;                         // of each that may be read: what lies behind a row has no weight
+/// A frame that is twice as high as the working image, in rows of three interleaved bytes.
+struct HalvedFrame {
+  const std::uint8_t* source = nullptr;
+  std::ptrdiff_t source_stride = 0;
+  int source_bytes = 0;                         // of each row
   const std::uint16_t* first_column = nullptr;  // of each working column's window of four source columns
-  /// Of each working column of a period, sixteen: w0 w1 three times, 0 0, w2 w3 three times, 0 0; all below 128.
+  /// Of each working column of a period, sixteen: w0 w1 three times, 0 0, w2 w3 three times, 0 0; all below 128. What
+  /// lies behind a row has no weight.
   const std::int8_t* weights = nullptr;
   int columns = 0;          // a multiple of 8
+  int rows = 0;             // of the working image, an even number
   int period = 0;           // columns after which the weights repeat, a multiple of 4
   std::uint16_t scale = 0;  // from sums to 8.6 bit, in 1/65536
   ColourMatrix matrix;
-  std::uint8_t* y[2] = {};
+  std::uint8_t* y = nullptr;
   std::uint8_t* cb = nullptr;
   std::uint8_t* cr = nullptr;
+  std::ptrdiff_t y_stride = 0, cb_stride = 0, cr_stride = 0;
 };
 
 /// out = (a + b + c + d + 2) / 4 of four rows of samples.
@@ -38,8 +42,8 @@ using MeanOfFour = void (*)(const std::uint8_t* const* rows, int width, std::uin
 
 struct Kernels {
   const char* name = nullptr;
-  void (*halve_rows)(const HalvedRows& rows) = nullptr;  // null: not offered
-  MeanOfFour mean_of_four = nullptr;                     // null: not offered
+  void (*halve_frame)(const HalvedFrame& frame) = nullptr;  // null: not offered
+  MeanOfFour mean_of_four = nullptr;                        // null: not offered
   void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;

@@ -18,7 +18,7 @@ namespace touchline {
 Kernels avx2_kernels() {
   return {
       .name = "avx2",
-      .halve_rows = halve_avx2::halve_rows,
+      .halve_frame = halve_avx2::halve_frame,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx2::hsv_rows,

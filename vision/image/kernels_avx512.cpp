@@ -6,9 +6,12 @@
 
 #if defined(__x86_64__) && defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && \
     defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VNNI__)
+#if !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // g++ 12 finds it in its own header (bug 105593)
+#endif
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
-#include "vision/image/halve_rows_avx2.h"
+#include "vision/image/halve_rows_avx512.h"
 #include "vision/image/luma_bands_avx2.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
@@ -20,7 +23,7 @@ namespace touchline {
 Kernels avx512_kernels() {
   return {
       .name = "avx512",
-      .halve_rows = halve_avx2::halve_rows,
+      .halve_frame = halve_avx512::halve_frame,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx2::hsv_rows,

@@ -14,7 +14,7 @@ Kernels portable_kernels() {
   if constexpr (!vector_registers) return word_kernels();
   return {
       .name = "portable",
-      .halve_rows = nullptr,
+      .halve_frame = nullptr,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands::hsv_rows,
@@ -28,7 +28,7 @@ Kernels portable_kernels() {
 Kernels word_kernels() {
   return {
       .name = "words",
-      .halve_rows = nullptr,
+      .halve_frame = nullptr,
       .mean_of_four = nullptr,
       .find_ridges = ridge_words::find_ridges,
       .hsv_rows = band_words::hsv_rows,

@@ -221,7 +221,7 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   period_ = pairs ? period : 0;
   set_weights();
   kernels_ = fits_kernels(kernels) ? kernels : Kernels{};
-  if (kernels_.halve_rows != nullptr) set_kernel_weights();
+  if (kernels_.halve_frame != nullptr) set_kernel_weights();
   configured_ = true;
   return Status::ok;
 }
@@ -256,7 +256,7 @@ std::size_t pair_weights(int period, int taps) { return static_cast<std::size_t>
 }  // namespace
 
 bool Subsampler::fits_kernels(const Kernels& kernels) const {
-  return kernels.halve_rows != nullptr && period_ != 0 && period_ % 4 == 0 && taps_ <= kernel_taps &&
+  return kernels.halve_frame != nullptr && period_ != 0 && period_ % 4 == 0 && taps_ <= kernel_taps &&
          horizontal_.target % 8 == 0 && vertical_.target % 2 == 0 && vertical_.source == 2 * vertical_.target &&
          vertical_.cell == 2 && 2 * horizontal_.cell <= max_exact_cells &&
          horizontal_.source <= 4 * horizontal_.target && most_weight(horizontal_) < 128 &&
@@ -278,23 +278,24 @@ void Subsampler::set_kernel_weights() {
 }
 
 void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) const {
-  HalvedRows rows;
-  rows.first_column = memory_.first_column.data();
-  rows.weights = reinterpret_cast<const std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
-  rows.columns = horizontal_.target;
-  rows.period = period_;
-  rows.scale = scale_;
-  rows.matrix = colour_matrix(frame.format);
-  for (int y = 0; y < vertical_.target; y += 2) {
-    for (int k = 0; k < 4; ++k) rows.source[k] = unpack_row(frame, 2 * y + k, nullptr);
-    const bool last = y + 2 >= vertical_.target;  // behind the others there is another row
-    rows.source_bytes = 3 * frame.width + (last ? 0 : frame.stride_bytes);
-    rows.y[0] = out.y.row(y);
-    rows.y[1] = out.y.row(y + 1);
-    rows.cb = out.cb.row(y / 2);
-    rows.cr = out.cr.row(y / 2);
-    kernels_.halve_rows(rows);
-  }
+  HalvedFrame halved;
+  halved.source = frame.data;
+  halved.source_stride = frame.stride_bytes;
+  halved.source_bytes = 3 * frame.width;
+  halved.first_column = memory_.first_column.data();
+  halved.weights = reinterpret_cast<const std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
+  halved.columns = horizontal_.target;
+  halved.rows = vertical_.target;
+  halved.period = period_;
+  halved.scale = scale_;
+  halved.matrix = colour_matrix(frame.format);
+  halved.y = out.y.data;
+  halved.cb = out.cb.data;
+  halved.cr = out.cr.data;
+  halved.y_stride = out.y.stride;
+  halved.cb_stride = out.cb.stride;
+  halved.cr_stride = out.cr.stride;
+  kernels_.halve_frame(halved);
 }
 
 /// Rows 0 and 1 are working rows; row -1, in place of the interleaved pixels, which are used up by then, takes chroma.
@@ -349,7 +350,7 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     stretch_yuyv(frame, out);
     return Status::ok;
   }
-  if (kernels_.halve_rows != nullptr && needs_no_unpacking(frame.format)) {
+  if (kernels_.halve_frame != nullptr && needs_no_unpacking(frame.format)) {
     run_kernels(frame, out);
     return Status::ok;
   }
