@@ -118,7 +118,7 @@ float Localizer::weigh_particles(const YawEvidence& yaw) {
   const float per_measurement = 1.0F / math::max(observation_.line_weight, 1.0F);
   for (int first = 0; first < p.count; first += pose_lanes) {
     PoseBlock block;
-    for (int i = first; i < p.count && block.count < pose_lanes; ++i) block.push_back(p.pose(i));
+    take_poses(p, first, config_.kernels, block);
     float line_costs[pose_lanes];
     judge.judge(block, line_costs, p.log_weight + first);
     for (int i = 0; i < block.count; ++i) sum += math::exp(-line_costs[i] * per_measurement);
@@ -270,7 +270,9 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
   std::size_t last = no_cluster;  // neighbours are mostly of one cluster
   float log_weight = stray_log_weight;
   Factor f{};
+  Noise noise;
   for (int i = 0; i < p.count; ++i) {
+    if (i % noise_block == 0) draw_noise(config_.kernels, rng_, noise);
     const std::size_t k = index[static_cast<std::size_t>(i)];
     if (k == no_cluster) {
       p.log_weight[i] = stray_log_weight;
@@ -285,9 +287,10 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
     }
     p.log_weight[i] = log_weight;
     if (!m.refined.converged) continue;
-    const float a = rng_.gaussian();
-    const float b = rng_.gaussian();
-    const float c = rng_.gaussian();
+    const int at = i % noise_block;
+    const float a = noise.value[0][at];
+    const float b = noise.value[1][at];
+    const float c = noise.value[2][at];
     p.set_pose(i, {m.refined.pose.x + f.l00 * a, m.refined.pose.y + f.l10 * a + f.l11 * b,
                    wrap_angle(m.refined.pose.theta + f.l20 * a + f.l21 * b + f.l22 * c)});
   }

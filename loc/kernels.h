@@ -94,6 +94,13 @@ struct RefineSums {
 };
 inline constexpr int refine_sums = 23;  // of the three kinds above
 
+/// Three independent normal numbers (mean 0, deviation 1) for each of sixteen particles.
+inline constexpr int noise_block = 16;
+struct Noise {
+  alignas(32) float value[3][noise_block];
+};
+inline constexpr int noise_words = 3 * noise_block;  // random words that it takes
+
 struct LocKernels {
   const char* name = nullptr;
   /// Nats >= 0, of each pose; `costs` has room for eight.
@@ -101,6 +108,9 @@ struct LocKernels {
   void (*landmark_costs)(LandmarkTerms& terms, const PoseBlock& poses, float* costs) = nullptr;
   /// Samples 0, 8, 16 ... are summed, then 1, 9, 17 ..., and so on; then the eight sums in pairs.
   void (*linearise)(const RefineTerms& terms, RefineSums& sums) = nullptr;
+  /// math::sin_cos() of eight finite angles, up to 1e4 either way.
+  void (*sin_cos)(const float* angles, float* sin, float* cos) = nullptr;
+  void (*normals)(const std::uint32_t* words, Noise& noise) = nullptr;
 };
 
 /// For every processor.

@@ -5,10 +5,13 @@
 #include "loc/kernels.h"
 
 #if defined(__x86_64__) && defined(__AVX2__)
+#include "loc/angle_loops.h"
 #include "loc/kernel_loops.h"
 
 namespace touchline {
-LocKernels avx2_loc_kernels() { return {"avx2", line_costs<Eight>, landmark_costs<Eight>, linearise<Eight>}; }
+LocKernels avx2_loc_kernels() {
+  return {"avx2", line_costs<Eight>, landmark_costs<Eight>, linearise<Eight>, sin_cos<Eight>, normals<Eight>};
+}
 }  // namespace touchline
 
 #else

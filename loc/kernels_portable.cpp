@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "loc/angle_loops.h"
 #include "loc/kernel_loops.h"
 #include "vision/image/vector_registers.h"
 
@@ -6,8 +7,10 @@ namespace touchline {
 
 LocKernels portable_loc_kernels() {
   if constexpr (!vector_registers) return scalar_loc_kernels();
-  return {"portable", line_costs<Eight>, landmark_costs<Eight>, linearise<Eight>};
+  return {"portable", line_costs<Eight>, landmark_costs<Eight>, linearise<Eight>, sin_cos<Eight>, normals<Eight>};
 }
-LocKernels scalar_loc_kernels() { return {"scalar", line_costs<One>, landmark_costs<One>, linearise<One>}; }
+LocKernels scalar_loc_kernels() {
+  return {"scalar", line_costs<One>, landmark_costs<One>, linearise<One>, sin_cos<One>, normals<One>};
+}
 
 }  // namespace touchline

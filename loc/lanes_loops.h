@@ -65,6 +65,12 @@ template <class F>
                                     (reinterpret_cast<Eight::I>(sign) & static_cast<std::int32_t>(0x80000000U)));
 }
 
+/// The number's own bits.
+[[gnu::always_inline]] inline std::int32_t bits_of(float a) { return __builtin_bit_cast(std::int32_t, a); }
+[[gnu::always_inline]] inline Eight::I bits_of(Eight::F a) { return reinterpret_cast<Eight::I>(a); }
+[[gnu::always_inline]] inline float from_bits(std::int32_t a) { return __builtin_bit_cast(float, a); }
+[[gnu::always_inline]] inline Eight::F from_bits(Eight::I a) { return reinterpret_cast<Eight::F>(a); }
+
 [[gnu::always_inline]] inline std::int32_t truncated(float a) { return static_cast<std::int32_t>(a); }
 [[gnu::always_inline]] inline Eight::I truncated(Eight::F a) { return __builtin_convertvector(a, Eight::I); }
 [[gnu::always_inline]] inline float as_float(std::int32_t a) { return static_cast<float>(a); }

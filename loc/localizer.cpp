@@ -48,7 +48,9 @@ const char* first_bad_key(const LocalizerConfig& c) {
   if (!in_range(c.line_sigma_floor, 1e-3F, 0.5F)) return "line_sigma_floor";
   if (!in_range(c.landmark_variance_floor, 1e-4F, 10.0F)) return "landmark_variance_floor";
   if (!in_range(c.confident, 0.0F, 1.0F)) return "confident";
-  if (c.kernels.line_costs == nullptr || c.kernels.landmark_costs == nullptr || c.kernels.linearise == nullptr)
+  const LocKernels& k = c.kernels;
+  if (k.line_costs == nullptr || k.landmark_costs == nullptr || k.linearise == nullptr || k.sin_cos == nullptr ||
+      k.normals == nullptr)
     return "kernels";
   return nullptr;
 }
@@ -173,7 +175,7 @@ void Localizer::predict(const LocalizerInput& input) {
   MotionNoise noise = config_.motion;
   noise.xy_floor += input.unknown_xy;
   noise.theta_floor += input.unknown_theta;
-  move_particles(particles(), input.odometry, noise, rng_);
+  move_particles(particles(), input.odometry, noise, config_.kernels, rng_);
   if (!last_.valid) return;
   last_.covariance = grown(last_.covariance, step_sigma(input.odometry, noise), last_.pose.theta);
   last_.pose = compose(last_.pose, input.odometry);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "loc/motion_model.h"
 
+#include <algorithm>
+
 #include "platform/core/elementary.h"
 
 namespace touchline {
@@ -17,12 +19,41 @@ StepSigma step_sigma(const Pose2& step, const MotionNoise& noise) {
           way * noise.theta_per_metre + turn * noise.theta_per_radian + noise.theta_floor};
 }
 
-void move_particles(ParticleView particles, const Pose2& step, const MotionNoise& noise, Rng& rng) {
+void take_poses(const ParticleView& particles, int first, const LocKernels& kernels, PoseBlock& block) {
+  block.count = std::min(particles.count - first, pose_lanes);
+  for (int i = 0; i < block.count; ++i) {
+    block.x[i] = particles.x[first + i];
+    block.y[i] = particles.y[first + i];
+    block.theta[i] = particles.theta[first + i];
+  }
+  kernels.sin_cos(block.theta, block.sin, block.cos);
+}
+
+void draw_noise(const LocKernels& kernels, Rng& rng, Noise& noise) {
+  std::uint32_t words[noise_words];
+  rng.next_u32s(words, noise_words);
+  kernels.normals(words, noise);
+}
+
+void move_particles(ParticleView particles, const Pose2& step, const MotionNoise& noise, const LocKernels& kernels,
+                    Rng& rng) {
   const StepSigma sigma = step_sigma(step, noise);
-  for (int i = 0; i < particles.count; ++i) {
-    const Pose2 noisy{step.x + sigma.x * rng.gaussian(), step.y + sigma.y * rng.gaussian(),
-                      step.theta + sigma.theta * rng.gaussian()};
-    particles.set_pose(i, compose(particles.pose(i), noisy));
+  Noise drawn;
+  for (int first = 0; first < particles.count; first += pose_lanes) {
+    const int at = first % noise_block;
+    if (at == 0) draw_noise(kernels, rng, drawn);
+    PoseBlock block;
+    take_poses(particles, first, kernels, block);
+    for (int i = 0; i < pose_lanes; ++i) {  // plain, so that it becomes vectors
+      const float x = step.x + sigma.x * drawn.value[0][at + i];
+      const float y = step.y + sigma.y * drawn.value[1][at + i];
+      block.x[i] += block.cos[i] * x - block.sin[i] * y;
+      block.y[i] += block.sin[i] * x + block.cos[i] * y;
+      block.theta[i] += step.theta + sigma.theta * drawn.value[2][at + i];
+    }
+    for (int i = 0; i < block.count; ++i) {
+      particles.set_pose(first + i, {block.x[i], block.y[i], wrap_angle(block.theta[i])});
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 // Motion update of the particles (Probabilistic Robotics, section 5.4: odometry model with noise per axis).
 #pragma once
 
+#include "loc/kernels.h"
 #include "loc/localizer_config.h"
 #include "loc/particles.h"
 #include "platform/core/rng.h"
@@ -17,6 +18,10 @@ struct StepSigma {
 StepSigma step_sigma(const Pose2& step, const MotionNoise& noise);
 
 /// Moves every particle by `step` (robot's frame) plus noise of its own.
-void move_particles(ParticleView particles, const Pose2& step, const MotionNoise& noise, Rng& rng);
+void move_particles(ParticleView particles, const Pose2& step, const MotionNoise& noise, const LocKernels& kernels,
+                    Rng& rng);
+
+/// The next sixteen particles' worth.
+void draw_noise(const LocKernels& kernels, Rng& rng, Noise& noise);
 
 }  // namespace touchline

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "loc/kernels.h"
 #include "loc/localizer_config.h"
 #include "platform/core/geometry.h"
 
@@ -39,6 +40,9 @@ struct ParticleStorage {
     return {x.data(), y.data(), theta.data(), log_weight.data(), count};
   }
 };
+
+/// Up to eight of them from `first` on.
+void take_poses(const ParticleView& particles, int first, const LocKernels& kernels, PoseBlock& block);
 
 /// Subtracts the largest log weight, so that the best particle has 0; returns what was subtracted. Weights that are not
 /// finite count as hopeless.

@@ -19,6 +19,12 @@ std::uint32_t Rng::next_u32() {
   return (xor_shifted >> rotation) | (xor_shifted << ((32U - rotation) & 31U));
 }
 
+void Rng::next_u32s(std::uint32_t* to, int count) {
+  Rng here = *this;  // in registers: nothing that is stored can change it
+  for (int i = 0; i < count; ++i) to[i] = here.next_u32();
+  *this = here;
+}
+
 float Rng::uniform() { return static_cast<float>(next_u32() >> 8U) * 0x1.0p-24F; }
 
 std::uint32_t Rng::below(std::uint32_t bound) {

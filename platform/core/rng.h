@@ -12,6 +12,8 @@ class Rng {
   explicit Rng(std::uint64_t seed, std::uint64_t stream = 0);
 
   std::uint32_t next_u32();
+  /// The next `count` of them.
+  void next_u32s(std::uint32_t* to, int count);
   /// In [0, 1), 24 bits.
   float uniform();
   /// In [low, high).

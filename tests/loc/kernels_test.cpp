@@ -5,9 +5,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -268,4 +270,89 @@ TEST_CASE("a linearisation is that of the exact nearest lines") {
       CHECK(std::abs(static_cast<double>(sums.gradient[a]) - gradient[a]) <= slack * (1.0 + 4.0 * trace[a]));
     }
   });
+}
+
+TEST_CASE("sines and cosines are those of math::sin_cos with every table") {
+  Rng rng(11);
+  for (int i = 0; i < 2000; ++i) {
+    alignas(32) float angles[pose_lanes], sine[pose_lanes], cosine[pose_lanes];
+    const float reach = i % 2 == 0 ? math::pi : 1.0e4F;
+    for (float& angle : angles) angle = rng.uniform(-reach, reach);
+    if (i == 0) std::copy_n(std::begin({0.0F, -0.0F, math::pi, -math::half_pi, 1e-20F, 1e4F}), 6, angles);
+    for (const LocKernels& kernels : {scalar_loc_kernels(), portable_loc_kernels(), fastest_loc_kernels()}) {
+      kernels.sin_cos(angles, sine, cosine);
+      for (int k = 0; k < pose_lanes; ++k) {
+        const auto [s, c] = math::sin_cos(angles[k]);
+        CHECK(same_bits(sine[k], s));
+        CHECK(same_bits(cosine[k], c));
+      }
+    }
+  }
+}
+
+TEST_CASE("noise is the same with every table, normal, and each number by itself") {
+  Rng rng(12);
+  constexpr int blocks = 5000;
+  double sum = 0.0, squares = 0.0, cubes = 0.0, neighbours = 0.0, rows = 0.0;
+  int beyond_two = 0, beyond_four = 0;
+  float largest = 0.0F;
+  for (int i = 0; i < blocks; ++i) {
+    std::uint32_t words[noise_words];
+    rng.next_u32s(words, noise_words);
+    if (i == 0) std::copy_n(std::begin({0U, 0xFFFFFFFFU, 0x100U, 0x80000000U}), 4, words);
+    Noise noise;
+    scalar_loc_kernels().normals(words, noise);
+    for (const LocKernels& kernels : vector_tables()) {
+      Noise other;
+      kernels.normals(words, other);
+      for (int row = 0; row < 3; ++row) {
+        for (int k = 0; k < noise_block; ++k) CHECK(same_bits(other.value[row][k], noise.value[row][k]));
+      }
+    }
+    for (int row = 0; row < 3; ++row) {
+      for (int k = 0; k < noise_block; ++k) {
+        const double v = static_cast<double>(noise.value[row][k]);
+        sum += v;
+        squares += v * v;
+        cubes += v * v * v;
+        neighbours += v * static_cast<double>(noise.value[row][(k + noise_block / 2) % noise_block]);
+        rows += v * static_cast<double>(noise.value[(row + 1) % 3][k]);
+        beyond_two += std::abs(v) > 2.0 ? 1 : 0;
+        beyond_four += std::abs(v) > 4.0 ? 1 : 0;
+        largest = math::max(largest, math::abs(noise.value[row][k]));
+      }
+    }
+  }
+  constexpr double n = blocks * noise_words;
+  CHECK(std::abs(sum / n) < 5.0 / std::sqrt(n));
+  CHECK(std::abs(squares / n - 1.0) < 5.0 * std::sqrt(2.0 / n));
+  CHECK(std::abs(cubes / n) < 5.0 * std::sqrt(15.0 / n));
+  CHECK(std::abs(neighbours / n) < 5.0 * std::sqrt(2.0 / n));
+  CHECK(std::abs(rows / n) < 5.0 / std::sqrt(n));
+  CHECK(std::abs(beyond_two - 0.0455 * n) < 5.0 * std::sqrt(0.0455 * n));
+  CHECK(std::abs(beyond_four - 6.33e-5 * n) < 5.0 * std::sqrt(6.33e-5 * n));
+  CHECK(largest < 5.9F);
+}
+
+TEST_CASE("one random word is the radius and the next the angle") {
+  std::uint32_t words[noise_words] = {};
+  const std::uint32_t radius_words[] = {0x80000000U, 0x01000000U, 0x7FFFFF00U, 0x12345600U};
+  const std::uint32_t angle_words[] = {0x00000000U, 0x40000000U, 0xB504F300U, 0xFFFFFF00U};
+  for (int k = 0; k < 4; ++k) {
+    words[k] = radius_words[k];
+    words[noise_block / 2 + k] = angle_words[k];
+  }
+  for (const LocKernels& kernels : {scalar_loc_kernels(), fastest_loc_kernels()}) {
+    Noise noise;
+    kernels.normals(words, noise);
+    for (int k = 0; k < 4; ++k) {
+      const double u = (static_cast<double>(radius_words[k] >> 8) + 0.5) / 16777216.0;
+      const double r = std::sqrt(-2.0 * std::log(u));
+      const double turn = static_cast<double>(angle_words[k] >> 8) / 16777216.0 - 0.125;
+      const double angle = 2.0 * 3.14159265358979 * turn;
+      CHECK(static_cast<double>(noise.value[0][k]) == doctest::Approx(r * std::sin(angle)).epsilon(1e-5));
+      CHECK(static_cast<double>(noise.value[0][noise_block / 2 + k]) ==
+            doctest::Approx(r * std::cos(angle)).epsilon(1e-5));
+    }
+  }
 }

@@ -14,7 +14,7 @@ TEST_CASE("a step without noise moves every particle in its own frame") {
   p.set_pose(1, {1.0F, 1.0F, math::half_pi});
   const MotionNoise none{0, 0, 0, 0, 0, 0};
   Rng rng(1);
-  move_particles(p, {0.5F, 0.0F, 0.1F}, none, rng);
+  move_particles(p, {0.5F, 0.0F, 0.1F}, none, portable_loc_kernels(), rng);
   CHECK(p.x[0] == doctest::Approx(0.5));
   CHECK(p.y[1] == doctest::Approx(1.5));
   CHECK(p.theta[1] == doctest::Approx(math::half_pi + 0.1F));
@@ -27,7 +27,7 @@ TEST_CASE("the cloud spreads as the noise says") {
   noise.xy_per_metre = 0.2F;
   Rng rng(2);
   const Pose2 step{0.5F, 0.0F, 0.2F};
-  move_particles(p, step, noise, rng);
+  move_particles(p, step, noise, portable_loc_kernels(), rng);
   const StepSigma sigma = step_sigma(step, noise);
   double sum = 0.0;
   double squares = 0.0;
