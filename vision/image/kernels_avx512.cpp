@@ -12,7 +12,7 @@
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/halve_rows_avx512.h"
-#include "vision/image/luma_bands_avx2.h"
+#include "vision/image/luma_bands_avx512.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_block_loops.h"
 #include "vision/image/thinning_loops.h"
@@ -26,8 +26,8 @@ Kernels avx512_kernels() {
       .halve_frame = halve_avx512::halve_frame,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
-      .hsv_rows = bands_avx2::hsv_rows,
-      .white_rows = bands::white_rows,
+      .hsv_rows = bands_avx512::hsv_rows,
+      .white_rows = bands_avx512::white_rows,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx2::window_moments,
