@@ -132,17 +132,21 @@ float Localizer::weigh_particles(const YawEvidence& yaw) {
 void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share) {
   find_candidates(field_, map_, observation_, config_, yaw, candidates_);
   if (candidates_.empty()) return;
-  for (PoseCandidate& candidate : candidates_) {
-    Refinement as_given;
-    as_given.pose = candidate.pose;
-    candidate.missing =
-        missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
-    candidate.score -= candidate.missing;
-  }
-  sort_best_first(candidates_);
+  look_for_missing(vision);
   const ParticleView p = particles();
   const int count = std::max(1, part_of(p.count, math::min(share, 0.5F)));
   PoseJudge judge(field_, map_, observation_, config_, yaw);
+  PoseBlock block;
+  std::array<int, pose_lanes> at{};
+  std::array<float, pose_lanes> missing{};
+  const auto weigh = [&] {
+    float line_costs[pose_lanes], log_likelihoods[pose_lanes];
+    judge.judge(block, line_costs, log_likelihoods);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(block.count); ++i) {
+      p.log_weight[at[i]] = log_likelihoods[i] - temper * missing[i];
+    }
+    block.count = 0;
+  };
   for (int k = 0; k < count; ++k) {
     const PoseCandidate& c = candidates_[static_cast<std::size_t>(k) % std::min(candidates_.size(), max_clusters)];
     const int i = k * p.count / count;
@@ -153,11 +157,31 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
       pose.theta = wrap_angle(pose.theta + candidate_spread_rad * rng_.gaussian());
     }
     p.set_pose(i, pose);
-    PoseBlock block;
+    at[static_cast<std::size_t>(block.count)] = i;
+    missing[static_cast<std::size_t>(block.count)] = c.missing;
     block.push_back(pose);
-    float line_costs[pose_lanes], log_likelihoods[pose_lanes];
-    judge.judge(block, line_costs, log_likelihoods);
-    p.log_weight[i] = log_likelihoods[0] - temper * c.missing;
+    if (block.count == pose_lanes) weigh();
+  }
+  if (block.count > 0) weigh();
+}
+
+/// Takes off each score what the lines cost that are missing from the picture, and leaves the best first. What only
+/// ever lowers a score need not be known of those that are behind as many as are used already.
+void Localizer::look_for_missing(const VisionResult& vision) {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    PoseCandidate candidate = candidates_[i];
+    if (i >= max_clusters && candidate.score <= candidates_[max_clusters - 1].score) {
+      candidates_.truncate(i);
+      return;
+    }
+    Refinement as_given;
+    as_given.pose = candidate.pose;
+    candidate.missing =
+        missing_nats_per_metre * check_visibility(field_, vision, as_given, range_for_visibility).missing;
+    candidate.score -= candidate.missing;
+    std::size_t k = i;
+    for (; k > 0 && candidates_[k - 1].score < candidate.score; --k) candidates_[k] = candidates_[k - 1];
+    candidates_[k] = candidate;
   }
 }
 

@@ -13,6 +13,8 @@ constexpr float coarse_sigma = 0.15F;  // m: half the spacing of the grid, diago
 constexpr float same_distance = 0.35F;
 constexpr float same_angle = radians(20.0F);
 constexpr float grid_step = 0.25F;
+// The best known come first, and one that is real is enough: more are seen at once by clutter alone.
+constexpr std::size_t max_junctions_tried = 12;
 constexpr std::size_t grid_samples = 48;  // of filter_lines: a coarse look needs no more
 // The widest field with 2 m of border on either side, and a column of nothing at either end.
 constexpr std::size_t max_grid_columns = static_cast<std::size_t>((max_field_width + 4.0F) / grid_step) + 4;
@@ -204,8 +206,6 @@ bool dominant_direction(const Observation& observation, float& out) {
   return true;
 }
 
-}  // namespace
-
 void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
   for (std::size_t i = 1; i < list.size(); ++i) {
     const PoseCandidate c = list[i];
@@ -215,13 +215,16 @@ void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
   }
 }
 
+}  // namespace
+
 void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
                      const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out) {
   out.clear();
   if (observation.features == nullptr) return;
   Search search(field, map, observation, config, yaw, out);
   if (config.landmarks != Landmarks::goalposts) {
-    for (const Junction& j : observation.features->junctions) search.from_junction(j);
+    const std::span<const Junction> junctions = observation.features->junctions.span();
+    for (const Junction& j : junctions.first(std::min(junctions.size(), max_junctions_tried))) search.from_junction(j);
     if (observation.features->has_circle) search.from_circle(observation.features->circle);
     float direction = 0.0F;
     if (dominant_direction(observation, direction)) {

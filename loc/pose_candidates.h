@@ -24,7 +24,4 @@ using CandidateList = StaticVector<PoseCandidate, max_pose_candidates>;
 void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
                      const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out);
 
-/// By score, for a caller that has changed the scores.
-void sort_best_first(CandidateList& list);
-
 }  // namespace touchline

@@ -25,7 +25,7 @@ struct JunctionCandidate {
   float sigma = 0.0F;      // of the place, working pixels
   bool taken = false;      // part of a junction that has been judged
 };
-inline constexpr std::size_t max_junction_candidates = 192;  // a frame of clutter shows half as many
+inline constexpr std::size_t max_junction_candidates = 96;  // twice the most of a field; a frame of clutter fills them
 
 /// Working memory.
 struct JunctionWork {

@@ -52,11 +52,14 @@ void JunctionJudge::merge(std::size_t best) {
   const float radius = math::max(same_widths * search_.parameters.line_width_m, 0.0F);
   GroundPoint sum;
   float weights = 0.0F;
+  const GroundPixel pixel(search_.rays, c.ground);
+  const float farthest = 1.001F * math::max(radius, same_px * pixel.longest());  // tells most without their angle
   for (JunctionCandidate& other : search_.work.candidates) {
     if (other.taken) continue;
-    const float towards = math::atan2(other.ground.y - c.ground.y, other.ground.x - c.ground.x);
     const float apart = ground_distance(other.ground, c.ground);
-    if (apart > math::max(radius, same_px * search_.sight.metres_per_px(c.ground, towards))) continue;
+    if (apart > farthest) continue;
+    const Heading towards(math::atan2(other.ground.y - c.ground.y, other.ground.x - c.ground.x));
+    if (apart > math::max(radius, same_px * pixel.along(towards))) continue;
     other.taken = true;
     if (other.sigma > merge_sigmas * c.sigma) continue;
     const float w = 1.0F / math::square(other.sigma);

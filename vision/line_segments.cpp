@@ -67,9 +67,23 @@ class SegmentFinder {
   bool end_is_fork_ = false;
 };
 
+/// More straight lines than a field shows are clutter, and its pieces are short.
+void keep_longest(LineSegments& lines) {
+  auto& segments = lines.segments;
+  for (; segments.size() > max_straight_lines; ++lines.left_out) {
+    std::size_t shortest = 0;
+    for (std::size_t i = 1; i < segments.size(); ++i) {
+      if (segments[i].points < segments[shortest].points) shortest = i;
+    }
+    segments[shortest] = segments.back();
+    segments.pop_back();
+  }
+}
+
 void SegmentFinder::run() {
   out_.segments.clear();
   out_.points.clear();
+  out_.left_out = 0;
   std::size_t total = 0;
   for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
     edge_done_[e] = 0;
@@ -92,6 +106,7 @@ void SegmentFinder::run() {
     }
   }
   join_segments(rays_, field_, parameters_.line_width_m, out_);
+  keep_longest(out_);
 }
 
 /// Reads edge after edge through nodes of degree 2, from the end at node `start` (no_node: the free end).

@@ -33,13 +33,15 @@ struct ChainPoint {
   std::uint16_t chain = 0;
 };
 
-inline constexpr std::size_t max_segments = 128;      // the longest field's 17 lines in pieces, and a circle in 16
-inline constexpr std::size_t max_chain_points = 512;  // longer chains are thinned out
-inline constexpr std::size_t max_curve_points = 768;  // of the frame; chains are thinned out to fit
+inline constexpr std::size_t max_segments = 96;  // twice what a field's lines in pieces and a circle in 16 came to
+inline constexpr std::size_t max_straight_lines = 48;  // of them, once pieces are joined: the rest is clutter
+inline constexpr std::size_t max_chain_points = 512;   // longer chains are thinned out
+inline constexpr std::size_t max_curve_points = 768;   // of the frame; chains are thinned out to fit
 
 struct LineSegments {
   StaticVector<LineSegment, max_segments> segments;
   StaticVector<ChainPoint, max_curve_points> points;  // for the circle's fit
+  int left_out = 0;                                   // the shortest of too many straight lines
   // Working memory: the points of one chain, side by side for vectors.
   struct Chain {
     float x[max_chain_points] = {}, y[max_chain_points] = {};  // rays, robot's axes

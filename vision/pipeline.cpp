@@ -248,7 +248,7 @@ void Pipeline::find_features(VisionResult& result) {
   const int dropped = find_junctions(work.lines, features.has_circle ? &circle : nullptr, rays, field,
                                      {config_.line_width_m, config_.max_range_m}, work.junctions, features);
   result.counts.dropped_junctions =
-      dropped + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
+      dropped + work.lines.left_out + static_cast<int>(work.lines.segments.dropped() + work.lines.points.dropped());
 }
 
 /// A post's edges are as bright beside the carpet as a line's: what has its colour is no line.
