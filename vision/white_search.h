@@ -34,7 +34,6 @@ SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, Co
 /// by three times the noise; and those that stand out by half of that and hang together with such a one, or with a line
 /// that is there already. Only where a line is at most `max_ridge_px` wide; beyond, spans find it. `scratch` has the
 /// size of `lines` and holds all weak ridges afterwards. The result tells whether the growing ended within its bound.
-inline constexpr int max_ridge_px = 8;
 GrowResult find_white_ridges(const ConstYuv420View& image, ConstBitView roi, ConstBitView green, LineWidthView widths,
                              const CarpetModel& carpet, BitView lines, BitView scratch,
                              const Kernels& kernels = portable_kernels());

@@ -12,7 +12,7 @@
 #include "vision/image/edge_rows.h"
 #include "vision/image/luma_bands.h"
 #include "vision/image/moments.h"
-#include "vision/image/ridge_block.h"
+#include "vision/image/ridge_search.h"
 #include "vision/image/thinning_pass.h"
 
 namespace touchline {
@@ -44,7 +44,7 @@ struct Kernels {
   const char* name = nullptr;
   void (*halve_frame)(const HalvedFrame& frame) = nullptr;  // null: not offered
   MeanOfFour mean_of_four = nullptr;                        // null: not offered
-  void (*find_ridges)(const RidgeBlock& block, RidgeBits& bits) = nullptr;
+  void (*find_ridges)(const RidgeSearch& search) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
   CarpetKernels carpet;

@@ -9,7 +9,7 @@
 #include "vision/image/halve_rows_avx2.h"
 #include "vision/image/luma_bands_avx2.h"
 #include "vision/image/mean_rows_loops.h"
-#include "vision/image/ridge_block_loops.h"
+#include "vision/image/ridge_search_loops.h"
 #include "vision/image/thinning_loops.h"
 #include "vision/image/window_moments_avx2.h"
 

@@ -5,7 +5,8 @@
 #include "vision/image/kernels.h"
 #include "vision/image/luma_bands_words.h"
 #include "vision/image/mean_rows_loops.h"
-#include "vision/image/ridge_block_words.h"
+#include "vision/image/ridge_search_loops.h"
+#include "vision/image/ridge_search_words.h"
 #include "vision/image/vector_registers.h"
 
 namespace touchline {

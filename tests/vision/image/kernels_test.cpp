@@ -12,6 +12,7 @@
 #include "platform/core/rng.h"
 #include "tests/support/ascii_image.h"
 #include "tests/support/kernel_tables.h"
+#include "vision/image/bit_ops.h"
 #include "vision/image/frame_fifo.h"
 #include "vision/image/hsv.h"
 #include "vision/image/subsample.h"
@@ -108,42 +109,105 @@ TEST_CASE("moments of a window are those of its pixels, one by one") {
   }
 }
 
-/// Ridges by their definition, pixel by pixel.
-bool stands_out(const std::vector<std::uint8_t>& luma, int width, int x, int y, int dx, int dy, int margin) {
-  const auto sum = [&](int cx, int cy) {
-    const auto at = [&](int px, int py) { return int{luma[static_cast<std::size_t>(py * width + px)]}; };
-    const int bx = dx != 0 ? 0 : 1;
-    const int by = dx != 0 ? 1 : 0;
-    return at(cx - bx, cy - by) + 2 * at(cx, cy) + at(cx + bx, cy + by);
-  };
-  const int side = std::max(sum(x - dx, y - dy), sum(x + dx, y + dy));
-  return sum(x, y) > side + side / 16 + margin;
-}
+/// An image of few grey levels and colours, so that many pixels are as bright as their margin, with masks and widths to
+/// search it for ridges.
+struct RidgeScene {
+  int width, height;
+  std::vector<std::uint8_t> luma, cb, cr;
+  test::Bits roi, green, strong, weak;
+  std::vector<LineWidth> widths;
+  RidgeSearch search;
 
-void check_ridges(const Kernels& kernels) {
-  constexpr int width = 48;
-  constexpr int height = 40;
-  const auto luma = noise(static_cast<std::size_t>(width * height), 7);
-  for (int y0 = 0; y0 < height; y0 += ridge_block_px) {
-    for (int x0 = 0; x0 < width; x0 += ridge_block_px) {
-      RidgeBlock block{luma.data(), width, width, height, x0, y0, {1, 4, 10}, {2, 5, 10}, 3, 3, 20, 90};
-      RidgeBits bits;
-      kernels.find_ridges(block, bits);
-      for (int k = 0; k < max_ridge_looks; ++k) {
-        for (int bit = 0; bit < 64; ++bit) {
-          const int x = x0 + bit % 8;
-          const int y = y0 + bit / 8;
-          const int dx = block.row_reach[k];
-          const int dy = block.column_reach[k];
-          if (x - dx >= 0 && x + dx < width && y >= 1 && y + 1 < height) {
-            REQUIRE(((bits.row_weak[k] >> bit) & 1U) == (stands_out(luma, width, x, y, dx, 0, 20) ? 1 : 0));
-            REQUIRE(((bits.row_strong[k] >> bit) & 1U) == (stands_out(luma, width, x, y, dx, 0, 90) ? 1 : 0));
-          }
-          if (y - dy >= 0 && y + dy < height && x >= 1 && x + 1 < width) {
-            REQUIRE(((bits.column_weak[k] >> bit) & 1U) == (stands_out(luma, width, x, y, 0, dy, 20) ? 1 : 0));
-            REQUIRE(((bits.column_strong[k] >> bit) & 1U) == (stands_out(luma, width, x, y, 0, dy, 90) ? 1 : 0));
-          }
-        }
+  RidgeScene(int w, int h, std::uint64_t seed) : width(w), height(h), roi(w, h), green(w, h), strong(w, h), weak(w, h) {
+    Rng rng(seed);
+    const int chroma_width = (w + 1) / 2, chroma_height = (h + 1) / 2;
+    luma.resize(static_cast<std::size_t>(w * h));
+    for (std::uint8_t& v : luma)
+      v = static_cast<std::uint8_t>(rng.below(4) == 0 ? 90 + rng.below(80) : 60 + rng.below(9));
+    cb.resize(static_cast<std::size_t>(chroma_width * chroma_height));
+    cr.resize(cb.size());
+    for (std::uint8_t& v : cb) v = static_cast<std::uint8_t>(100 + rng.below(20));
+    for (std::uint8_t& v : cr) v = static_cast<std::uint8_t>(100 + rng.below(20));
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        roi.view().set(x, y, rng.below(16) != 0);
+        green.view().set(x, y, rng.below(8) != 0);
+        strong.view().set(x, y, rng.below(32) == 0);
+      }
+    }
+    copy(strong.view(), weak.view());
+    const int columns = (w + 7) / 8, rows = (h + 7) / 8;
+    for (int i = 0; i < columns * rows; ++i) {
+      const auto any = [&] { return static_cast<std::uint16_t>(rng.below(16) == 0 ? 65535 : rng.below(150)); };
+      widths.push_back(rng.below(16) == 0 ? LineWidth{} : LineWidth{any(), any(), any()});
+    }
+    search.image = {{luma.data(), w, h, w},
+                    {cb.data(), chroma_width, chroma_height, chroma_width},
+                    {cr.data(), chroma_width, chroma_height, chroma_width}};
+    search.roi = roi.view();
+    search.green = green.view();
+    search.widths = {widths.data(), columns, rows, columns};
+    search.axis_cb = -256;
+    search.axis_cr = -200;
+    search.weak_margin = 20;
+    search.strong_margin = 90;
+    search.strong = strong.view();
+    search.weak = weak.view();
+  }
+
+  [[nodiscard]] int sum(int x, int y, bool along_row) const {
+    const auto at = [&](int px, int py) { return int{search.image.y.at(px, py)}; };
+    return along_row ? at(x, y - 1) + 2 * at(x, y) + at(x, y + 1) : at(x - 1, y) + 2 * at(x, y) + at(x + 1, y);
+  }
+  [[nodiscard]] bool is_whiter(int x, int y, int side_x, int side_y) const {
+    const auto greenness = [&](int px, int py) {
+      return (search.image.cb.at(px / 2, py / 2) - 128) * search.axis_cb +
+             (search.image.cr.at(px / 2, py / 2) - 128) * search.axis_cr;
+    };
+    const auto chroma = [&](int px, int py) {
+      return std::abs(search.image.cb.at(px / 2, py / 2) - 128) + std::abs(search.image.cr.at(px / 2, py / 2) - 128);
+    };
+    const int here = search.image.y.at(x, y), side = search.image.y.at(side_x, side_y);
+    return greenness(x, y) * side * 8 < greenness(side_x, side_y) * here * 7 &&
+           chroma(x, y) * side < chroma(side_x, side_y) * here;
+  }
+  /// Whether a pixel is a ridge by that margin, by the definition.
+  [[nodiscard]] bool is_ridge(int x, int y, int margin) const {
+    const LineWidth& w = search.widths.at(x / 8, y / 8);
+    if (w.slanted == 0) return false;
+    for (const bool along_row : {true, false}) {
+      const int narrow = std::min(along_row ? w.across_row : w.across_column, w.slanted);
+      for (const int reach :
+           {(narrow * 19 / 16 + 32) / 16, ((narrow + w.slanted) / 2 + 32) / 16, (w.slanted + 32) / 16}) {
+        if (reach > max_ridge_reach_px) break;
+        const int dx = along_row ? reach : 0, dy = along_row ? 0 : reach;
+        // With a neighbour across the look for each of the three sums.
+        const int beside_x = along_row ? 0 : 1, beside_y = 1;
+        if (x - std::max(dx, 1) < 0 || x + std::max(dx, 1) >= width) continue;
+        if (y - dy - beside_y < 0 || y + dy + beside_y >= height || x - beside_x < 0) continue;
+        if (!search.green.get(x - dx, y - dy) || !search.green.get(x + dx, y + dy)) continue;
+        const int side = std::max(sum(x - dx, y - dy, along_row), sum(x + dx, y + dy, along_row));
+        if (sum(x, y, along_row) <= side + side / 16 + margin) continue;
+        if (is_whiter(x, y, x - dx, y - dy) && is_whiter(x, y, x + dx, y + dy)) return true;
+      }
+    }
+    return false;
+  }
+};
+
+void check_ridges(const Kernels& kernels, int width, int height) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    RidgeScene scene(width, height, seed);
+    const RidgeScene before(width, height, seed);
+    kernels.find_ridges(scene.search);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        CAPTURE(x);
+        CAPTURE(y);
+        const bool was = before.search.strong.get(x, y);
+        const bool wanted = before.search.roi.get(x, y) && !was;
+        REQUIRE(scene.search.weak.get(x, y) == (was || (wanted && before.is_ridge(x, y, 20))));
+        REQUIRE(scene.search.strong.get(x, y) == (was || (wanted && before.is_ridge(x, y, 90))));
       }
     }
   }
@@ -152,7 +216,11 @@ void check_ridges(const Kernels& kernels) {
 TEST_CASE("ridges are those of the definition, with every table of kernels") {
   for (const Kernels& kernels : test::all_tables()) {
     CAPTURE(kernels.name);
-    check_ridges(kernels);
+    check_ridges(kernels, 128, 48);
+    check_ridges(kernels, 160, 120);
+    check_ridges(kernels, 70, 46);
+    check_ridges(kernels, 24, 16);
+    check_ridges(kernels, 8, 50);
   }
 }
 
