@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "vision/image/ridge_looks.h"
+#include "vision/image/ridge_looks_loops.h"
 
 namespace touchline {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "vision/image/ridge_pixels.h"
+#include "vision/image/ridge_pixels_loops.h"
 
 namespace touchline {
 namespace {
