@@ -2,6 +2,10 @@
 // Candidates for junctions from the line mask. A line whose own direction is well known is followed, and the way square
 // to it is looked at on both sides: where it is white for a short piece of the line, a branch begins. Thinning makes
 // nothing useful of a branch that is hardly longer than wide; the mask still shows it.
+#include <algorithm>
+#include <array>
+#include <span>
+
 #include "vision/image/bit_ops.h"
 #include "vision/junction_search.h"
 
@@ -54,10 +58,13 @@ class BranchScan {
   };
   void place_knots();
   void scan_side(const Side& side);
+  void scan_between(std::size_t k, const Fence& fence, const Fence& next, const Side& side, Run& run);
   [[nodiscard]] GroundPoint at(float t) const {
     return {line_.end[0].x + t * line_.direction.x, line_.end[0].y + t * line_.direction.y};
   }
-  [[nodiscard]] Fence fence_at(const GroundPoint& p, const GroundPixel& pixel, const Side& side) const;
+  static constexpr std::size_t max_fences = RayLanes::most / 2;
+  using Fences = std::array<Fence, max_fences>;
+  [[nodiscard]] Fences fences_at(std::span<const Knot> knots, const Side& side) const;
   [[nodiscard]] bool none_white(const Fence& a, const Fence& b) const;
   [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f, float least) const;
   [[nodiscard]] bool dark_beside(float t, const Side& side) const;
@@ -99,36 +106,52 @@ void BranchScan::place_knots() {
 }
 
 void BranchScan::scan_side(const Side& side) {
-  Fence fence = fence_at(at(knots_[0].t), knots_[0].pixel, side);
   Run run;
-  for (std::size_t k = 0; k + 1 < knots_.size(); ++k) {
-    const Knot& knot = knots_[k];
-    const Knot& end = knots_[k + 1];
-    const Fence next = fence_at(at(end.t), end.pixel, side);
-    const bool dark = !fence.seen || !next.seen || none_white(fence, next);
-    for (int i = 0; i < (dark ? 1 : scan_knot_px); ++i) {
-      const float f = static_cast<float>(i) / static_cast<float>(scan_knot_px);
-      const float white = dark ? 0.0F : white_part(fence, next, f, white_enough);
-      if (white >= white_enough) {
-        run.add(knot.t + f * (end.t - knot.t), white);
-      } else if (run.weight > 0.0F) {
-        add_stem(run, knot.step, side);
-        run = {};
-      }
+  for (std::size_t first = 0; first + 1 < knots_.size(); first += max_fences - 1) {
+    const std::size_t count = std::min(knots_.size() - first, max_fences);
+    const Fences fences = fences_at({&knots_[first], count}, side);
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      scan_between(first + k, fences[k], fences[k + 1], side, run);
     }
-    fence = next;
   }
 }
 
-/// The way square to the line, from its edge out, in working pixels.
-BranchScan::Fence BranchScan::fence_at(const GroundPoint& p, const GroundPixel& pixel, const Side& side) const {
-  const float px = pixel.along(side.heading);
-  const float from = 0.5F * search_.parameters.line_width_m + px;
-  const float to = from + search_.sight.min_branch(px);
-  Fence fence;
-  fence.seen = search_.rays.work_point({p.x + from * side.out.x, p.y + from * side.out.y}, 0.0F, fence.from) &&
-               search_.rays.work_point({p.x + to * side.out.x, p.y + to * side.out.y}, 0.0F, fence.to);
-  return fence;
+/// From one knot to the next.
+void BranchScan::scan_between(std::size_t k, const Fence& fence, const Fence& next, const Side& side, Run& run) {
+  const Knot& knot = knots_[k];
+  const float length = knots_[k + 1].t - knot.t;
+  const bool dark = !fence.seen || !next.seen || none_white(fence, next);
+  for (int i = 0; i < (dark ? 1 : scan_knot_px); ++i) {
+    const float f = static_cast<float>(i) / static_cast<float>(scan_knot_px);
+    const float white = dark ? 0.0F : white_part(fence, next, f, white_enough);
+    if (white >= white_enough) {
+      run.add(knot.t + f * length, white);
+    } else if (run.weight > 0.0F) {
+      add_stem(run, knot.step, side);
+      run = {};
+    }
+  }
+}
+
+/// The ways square to the line at some places, from its edge out, in working pixels.
+BranchScan::Fences BranchScan::fences_at(std::span<const Knot> knots, const Side& side) const {
+  RayLanes ends;
+  for (const Knot& knot : knots) {
+    const GroundPoint p = at(knot.t);
+    const float px = knot.pixel.along(side.heading);
+    const float from = 0.5F * search_.parameters.line_width_m + px;
+    const float to = from + search_.sight.min_branch(px);
+    ends.add({p.x + from * side.out.x, p.y + from * side.out.y});
+    ends.add({p.x + to * side.out.x, p.y + to * side.out.y});
+  }
+  search_.rays.work_points(ends);
+  Fences fences;
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    fences[i] = {{ends.u[2 * i], ends.v[2 * i]},
+                 {ends.u[2 * i + 1], ends.v[2 * i + 1]},
+                 ends.seen[2 * i] + ends.seen[2 * i + 1] == 2};
+  }
+  return fences;
 }
 
 /// Whether no way between two fences can be white enough, told by a look at the box around their outer quarter: most
@@ -173,7 +196,8 @@ float BranchScan::white_part(const Fence& a, const Fence& b, float f, float leas
 
 /// Two lines a few pixels apart melt here and there; a branch has carpet on both sides.
 bool BranchScan::dark_beside(float t, const Side& side) const {
-  const Fence f = fence_at(at(t), GroundPixel(search_.rays, at(t)), side);
+  const Knot knot{t, 0.0F, GroundPixel(search_.rays, at(t))};
+  const Fence f = fences_at({&knot, 1}, side)[0];
   return !f.seen || white_part(f, f, 0.0F, dark_enough) <= dark_enough;
 }
 

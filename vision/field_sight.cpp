@@ -32,8 +32,13 @@ float FieldSight::min_branch(float px) const { return math::max(branch_widths * 
 
 Sight FieldSight::look(const GroundPoint& from, const GroundPoint& to) const {
   Sight sight;
-  WorkPoint a, b;
-  if (!rays_.work_point(from, 0.0F, a) || !rays_.work_point(to, 0.0F, b)) return {0.0F, 0.0F, 0.0F, 0.0F, false};
+  RayLanes ends;
+  ends.add(from);
+  ends.add(to);
+  rays_.work_points(ends);
+  if (ends.seen[0] + ends.seen[1] < 2) return {0.0F, 0.0F, 0.0F, 0.0F, false};
+  const WorkPoint a{ends.u[0], ends.v[0]};
+  const WorkPoint b{ends.u[1], ends.v[1]};
   const float apart = math::max(math::abs(b.u - a.u), math::abs(b.v - a.v));
   const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
   int white = 0, middle = 0, carpet = 0, inside = 0;
@@ -96,13 +101,23 @@ bool FieldSight::has_flanks(const GroundPoint& from, float direction, float leng
   const float aside = 0.75F * line_width_ + flank_px * px;
   for (const float side : {1.0F, -1.0F}) {
     int carpet = 0, other = 0;
+    RayLanes samples;
+    int taken = 0;
     for (int i = 0; i < flank_samples && 2 * carpet < flank_samples && 2 * other <= flank_samples; ++i) {
-      const float d = length * (static_cast<float>(i) + 1.0F) / static_cast<float>(flank_samples);
-      WorkPoint w;
-      const GroundPoint p{from.x + d * out.x - side * aside * out.y, from.y + d * out.y + side * aside * out.x};
-      if (!rays_.work_point(p, 0.0F, w) || !(w.u >= 0.0F && w.v >= 0.0F)) continue;
-      const int x = static_cast<int>(w.u);
-      const int y = static_cast<int>(w.v);
+      if (i == taken) {  // half of them tell of most
+        samples.count = 0;
+        for (; 2 * (taken - i) < flank_samples && taken < flank_samples; ++taken) {
+          const float d = length * (static_cast<float>(taken) + 1.0F) / static_cast<float>(flank_samples);
+          samples.add({from.x + d * out.x - side * aside * out.y, from.y + d * out.y + side * aside * out.x});
+        }
+        rays_.work_points(samples);
+      }
+      const int k = i - taken + samples.count;
+      const float u = samples.u[k];
+      const float v = samples.v[k];
+      if (samples.seen[k] == 0 || !(u >= 0.0F && v >= 0.0F)) continue;
+      const int x = static_cast<int>(u);
+      const int y = static_cast<int>(v);
       if (x >= rays_.work_width() || y >= rays_.work_height() || field_.lines.get(x, y)) continue;
       ++(field_.carpet.get(x, y) ? carpet : other);
     }

@@ -220,7 +220,7 @@ void SegmentFinder::look_farther(const Vec3& normal, int begin, int end, Farthes
   constexpr float slack = 1.0e-5F;  // much more than rounding
   const LineSegments::Chain& chain = out_.chain;
   const float height = rays_.projection().pose().height;
-  float off[points_at_once], allowed[points_at_once];
+  float off[points_at_once] = {}, allowed[points_at_once] = {};
   std::int32_t parts[points_at_once] = {};  // off / allowed; in bits, whose order is that of numbers above zero
   for (int i = begin; i < end; ++i) {
     off[i - begin] = math::abs(dot(normal, chain.ray(i)));

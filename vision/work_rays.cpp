@@ -71,4 +71,13 @@ bool WorkRays::work_point(const GroundPoint& p, float z, WorkPoint& work) const 
   return true;
 }
 
+void WorkRays::work_points(RayLanes& points) const {
+  projection_.pixels(points);
+  const int count = points.padded();
+  for (int i = 0; i < count; ++i) {
+    points.u[i] /= per_work_u_;
+    points.v[i] /= per_work_v_;
+  }
+}
+
 }  // namespace touchline

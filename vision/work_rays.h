@@ -29,6 +29,8 @@ class WorkRays {
   [[nodiscard]] bool patch(const WorkPoint& p, RayPatch& patch) const;
   /// Where a ground point lies in the working image; false outside the lens (it may lie outside the image).
   [[nodiscard]] bool work_point(const GroundPoint& p, float z, WorkPoint& work) const;
+  /// work_point() of many points on the carpet, bit for bit; GroundProjection::pixels() with working pixels.
+  void work_points(RayLanes& points) const;
   [[nodiscard]] PixelPoint camera_pixel(const WorkPoint& p) const { return {p.u * per_work_u_, p.v * per_work_v_}; }
 
   [[nodiscard]] const GroundProjection& projection() const { return projection_; }

@@ -62,7 +62,9 @@ float tan(float radians) {
   return both.sin / both.cos;
 }
 
-float atan2(float y, float x) { return atan2_lane(y, x); }
+float atan2(float y, float x) {
+  return atan2_by(y, x, [](bool condition, float a, float b) { return condition ? a : b; });
+}
 
 float atan(float x) {
   if (abs(x) > 3.0e38F) return x < 0.0F ? -half_pi : half_pi;

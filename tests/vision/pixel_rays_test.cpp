@@ -36,3 +36,33 @@ TEST_CASE("a pixel's ray is that of its centre, bit for bit, in any order, and o
   CHECK(seen > width * height / 2);
   CHECK(seen < width * height);
 }
+
+TEST_CASE("many ground points at once lie where each does in the working image, bit for bit") {
+  Lens lens;
+  LensParameters parameters{.model = LensModel::equidistant, .focal_px = 90.0F, .cx = 150.0F, .cy = 76.0F};
+  parameters.max_theta = radians(80.0F);
+  REQUIRE(Lens::create(parameters, lens) == Status::ok);
+  const GroundProjection projection(lens, {0.02F, -0.01F, 0.6F, 0.3F, 0.5F, -0.2F});
+  const WorkRays rays(projection, {}, 300, 152, 100, 76);
+  int seen = 0, count = 0;
+  for (int n = 0; n < 60; ++n) {
+    RayLanes lanes;
+    GroundPoint points[RayLanes::most];
+    for (int i = 0; i <= n % RayLanes::most; ++i) {
+      points[i] = {-2.0F + 0.1F * static_cast<float>(n), -1.5F + 0.2F * static_cast<float>(i)};
+      lanes.add(points[i]);
+    }
+    rays.work_points(lanes);
+    for (int i = 0; i < lanes.count; ++i, ++count) {
+      WorkPoint expected;
+      const bool sees = rays.work_point(points[i], 0.0F, expected);
+      REQUIRE((lanes.seen[i] == 1) == sees);
+      if (!sees) continue;
+      REQUIRE(lanes.u[i] == expected.u);
+      REQUIRE(lanes.v[i] == expected.v);
+      ++seen;
+    }
+  }
+  CHECK(seen > count / 4);
+  CHECK(seen < count);
+}

@@ -68,6 +68,18 @@ bool GroundProjection::pixel(const GroundPoint& point, float z, PixelPoint& pixe
   return lens_.pixel(multiply_transposed(rotation_, robot_ray), pixel);
 }
 
+void GroundProjection::pixels(RayLanes& points) const {
+  const int count = points.padded();
+  const float down = 0.0F - pose_.height;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 ray = multiply_transposed(rotation_, {points.x[i] - pose_.x, points.y[i] - pose_.y, down});
+    points.x[i] = ray.x;
+    points.y[i] = ray.y;
+    points.z[i] = ray.z;
+  }
+  lens_.pixels(points);
+}
+
 /// How the ray changes a pixel, by central differences over one pixel; one-sided at the edge of the lens.
 Vec3 GroundProjection::ray_slope(const PixelPoint& pixel, const Vec3& centre, float du, float dv) const {
   Vec3 ahead = centre;

@@ -48,6 +48,9 @@ class GroundProjection {
   [[nodiscard]] bool pixel(const GroundPoint& point, PixelPoint& pixel) const;
   /// Likewise for a point `z` metres above the carpet.
   [[nodiscard]] bool pixel(const GroundPoint& point, float z, PixelPoint& pixel) const;
+  /// pixel() of many ground points, bit for bit: takes x and y of `points` as those of the ground, and leaves rays
+  /// there.
+  void pixels(RayLanes& points) const;
   /// What `sigma_px` (camera pixels, along u and v each) and `sigma_tilt` (radians of pitch and of roll, each) mean on
   /// the ground there, m^2, to first order. A pixel that sees no ground: a million m^2 on the diagonal.
   [[nodiscard]] Sym2 ground_covariance(const PixelPoint& pixel, float sigma_px, float sigma_tilt) const;

@@ -3,6 +3,7 @@
 // model that is not monotonic has two rays for one pixel.
 #include "vision/lens/lens.h"
 
+#include "platform/core/atan2_lanes.h"
 #include "platform/core/elementary.h"
 #include "vision/lens/barrel.h"
 #include "vision/lens/equidistant.h"
@@ -122,6 +123,24 @@ const char* check_polynomial_angle(const LensParameters& p) {
   return nullptr;
 }
 
+/// model_radius() of the angles of some rays; those that are not seen have none.
+void model_radii(const LensParameters& lens, float max_radius, const RayLanes& rays, const float* theta,
+                 float* radius) {
+  const int count = rays.padded();
+  switch (lens.model) {
+    case LensModel::equidistant:
+      for (int i = 0; i < count; ++i) radius[i] = equidistant::radius_from_theta(lens, theta[i]);
+      return;
+    case LensModel::kannala_brandt:
+      for (int i = 0; i < count; ++i) radius[i] = kannala_brandt::radius_from_theta(lens, theta[i]);
+      return;
+    default:
+      for (int i = 0; i < count; ++i) {
+        radius[i] = rays.seen[i] != 0 ? model_radius(lens, theta[i], max_radius) : 0.0F;
+      }
+  }
+}
+
 }  // namespace
 
 Status Lens::create(const LensParameters& parameters, Lens& out, const char** what) {
@@ -178,6 +197,36 @@ bool Lens::pixel(const Vec3& ray, PixelPoint& pixel) const {
   }
   pixel = {parameters_.cx + dx * scale, parameters_.cy + dy * scale};
   return true;
+}
+
+void Lens::pixels(RayLanes& rays) const {
+  if (bends_angle_ || max_radius_ <= 0.0F) {
+    for (int i = 0; i < rays.count; ++i) {
+      PixelPoint p;
+      rays.seen[i] = pixel({rays.x[i], rays.y[i], rays.z[i]}, p) ? 1 : 0;
+      rays.u[i] = p.u;
+      rays.v[i] = p.v;
+    }
+    return;
+  }
+  const int count = rays.padded();
+  const LensParameters lens = parameters_;  // of our own, so that no store to the lanes can change it
+  const float max_radius = max_radius_;
+  float across[RayLanes::most], theta[RayLanes::most], radius[RayLanes::most];
+  for (int i = 0; i < count; ++i) across[i] = math::hypot(rays.x[i], rays.y[i]);
+  for (int i = 0; i < count; ++i) theta[i] = math::atan2_lane(across[i], rays.z[i]);
+  for (int i = 0; i < count; ++i) {
+    const int inside = theta[i] <= lens.max_theta ? 1 : 0;
+    const int somewhere = across[i] + math::abs(rays.z[i]) > 0.0F ? 1 : 0;
+    rays.seen[i] = inside & somewhere;
+  }
+  model_radii(lens, max_radius, rays, theta, radius);
+  for (int i = 0; i < count; ++i) {
+    constexpr float tiny = 1.0e-30F;  // below every root but 0, whose ray ends at the centre by any scale
+    const float scale = math::min(radius[i], max_radius) / math::max(across[i], tiny);
+    rays.u[i] = lens.cx + rays.x[i] * scale;
+    rays.v[i] = lens.cy + rays.y[i] * scale;
+  }
 }
 
 }  // namespace touchline

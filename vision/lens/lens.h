@@ -34,6 +34,23 @@ struct LensParameters {
   std::array<float, 8> b{0.0F, 1.0F};  // polynomial: b0..b7
 };
 
+/// Some rays and the pixels where they end, side by side for vectors.
+struct RayLanes {
+  static constexpr int most = 16;
+  static constexpr int width = 4;  // of the vectors that every processor with vectors has
+  int count = 0;
+  float x[most] = {}, y[most] = {}, z[most] = {};
+  float u[most] = {}, v[most] = {};
+  std::int32_t seen[most] = {};  // 1, or 0 where the ray is beyond max_theta: then u and v say nothing
+  /// A point on the carpet, for those who take x and y as that.
+  void add(const GroundPoint& p) {
+    x[count] = p.x;
+    y[count++] = p.y;
+  }
+  /// `count`, filled up to whole vectors.
+  [[nodiscard]] int padded() const { return (count + width - 1) / width * width; }
+};
+
 /// A lens whose parameters were checked. Copyable, small, no state beyond the parameters and what follows from them.
 class Lens {
  public:
@@ -47,6 +64,8 @@ class Lens {
   /// False when the ray is beyond max_theta; then `pixel` is unchanged. `ray` need not be a
   /// unit vector; the zero vector ends nowhere.
   [[nodiscard]] bool pixel(const Vec3& ray, PixelPoint& pixel) const;
+  /// pixel() of many rays, bit for bit.
+  void pixels(RayLanes& rays) const;
   /// Radius of the image circle, camera pixels.
   [[nodiscard]] float max_radius() const { return max_radius_; }
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }

@@ -126,6 +126,38 @@ TEST_CASE("ray to pixel to ray is the identity within the valid angle, whatever 
   }
 }
 
+TEST_CASE("many rays at once end at the pixels of each, bit for bit") {
+  for (const NamedLens& named : all_lenses()) {
+    CAPTURE(named.name);
+    const Lens lens = make(named.parameters);
+    Rng rng(3);
+    int seen = 0, unseen = 0;
+    for (int n = 0; n < 200; ++n) {
+      RayLanes rays;
+      for (rays.count = 0; rays.count <= n % RayLanes::most; ++rays.count) {
+        const float length = rays.count % 5 == 4 ? 0.0F : rng.uniform(0.1F, 10.0F);
+        const Vec3 ray = rays.count % 7 == 3 ? Vec3{0.0F, 0.0F, n % 2 == 0 ? 1.0F : -1.0F}
+                                             : direction(rng.uniform(0.0F, math::pi), rng.uniform(-3.1F, 3.1F));
+        rays.x[rays.count] = ray.x * length;
+        rays.y[rays.count] = ray.y * length;
+        rays.z[rays.count] = ray.z * length;
+      }
+      lens.pixels(rays);
+      for (int i = 0; i < rays.count; ++i) {
+        PixelPoint p;
+        const bool sees = lens.pixel({rays.x[i], rays.y[i], rays.z[i]}, p);
+        REQUIRE((rays.seen[i] == 1) == sees);
+        ++(sees ? seen : unseen);
+        if (!sees) continue;
+        REQUIRE(rays.u[i] == p.u);
+        REQUIRE(rays.v[i] == p.v);
+      }
+    }
+    CHECK(seen > 100);
+    CHECK(unseen > 20);
+  }
+}
+
 TEST_CASE("the angle grows with the radius, from the axis to max_theta") {
   for (const NamedLens& named : all_lenses()) {
     CAPTURE(named.name);
