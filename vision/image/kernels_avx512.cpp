@@ -16,7 +16,7 @@
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/thinning_loops.h"
-#include "vision/image/window_moments_avx2.h"
+#include "vision/image/window_moments_avx512.h"
 
 namespace touchline {
 
@@ -30,7 +30,7 @@ Kernels avx512_kernels() {
       .white_rows = bands_avx512::white_rows,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
-      .window_moments = moments_avx2::window_moments,
+      .window_moments = moments_avx512::window_moments,
       .thin = thinning::run,
   };
 }
