@@ -6,10 +6,14 @@
 
 #if defined(__x86_64__) && defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && \
     defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VNNI__)
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // g++ 12 finds it in its own header (bug 105593)
+#if !defined(__clang__)  // g++ 12 finds them in its own header (bug 105593)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#include <immintrin.h>
+#pragma GCC diagnostic pop
 #endif
-#include "vision/image/carpet_rows_loops.h"
+#include "vision/image/carpet_rows_avx512.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/halve_rows_avx512.h"
 #include "vision/image/luma_bands_avx512.h"
@@ -28,7 +32,7 @@ Kernels avx512_kernels() {
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
-      .carpet = carpet::kernels(),
+      .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx512::window_moments,
       .thin = thinning::run,
