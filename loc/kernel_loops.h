@@ -3,8 +3,8 @@
 #pragma once
 
 #include "loc/kernels.h"
-#include "loc/lanes_loops.h"
 #include "loc/robust.h"
+#include "platform/core/lanes_loops.h"
 
 namespace touchline {
 namespace {

@@ -5,8 +5,8 @@
 #include "loc/kernels.h"
 
 #if defined(__x86_64__) && defined(__AVX2__)
-#include "loc/angle_loops.h"
 #include "loc/kernel_loops.h"
+#include "loc/noise_loops.h"
 
 namespace touchline {
 LocKernels avx2_loc_kernels() {

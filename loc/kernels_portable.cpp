@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "loc/angle_loops.h"
 #include "loc/kernel_loops.h"
+#include "loc/noise_loops.h"
 #include "vision/image/vector_registers.h"
 
 namespace touchline {

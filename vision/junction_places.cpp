@@ -14,7 +14,7 @@ constexpr float gate_px = 2.5F;         // likewise, across the branch: farther 
 constexpr float gate_widths = 0.75F;
 constexpr float begin_px = 1.5F;                    // beyond the edge of the line across, where its blur ends
 constexpr float short_m = 0.3F;                     // a branch without line points is searched this far, and
-constexpr int most_searched = 12;                   // so many working pixels
+constexpr std::size_t most_searched = 12;                   // so many working pixels
 constexpr float end_m = 0.6F;                       // tilt and an uneven carpet bend what is farther away
 constexpr float sin_same_direction = 0.258819045F;  // of 15 degrees
 constexpr float branch_sigma = radians(3.0F);       // of a branch's direction, as the search gave it
@@ -72,11 +72,14 @@ class BranchFitter {
     const WorkPoint way{end.u - begin.u, end.v - begin.v};
     const float length = math::hypot(way.u, way.v);
     if (!(length > 0.0F)) return;
-    for (int k = 1; k <= most_searched && static_cast<float>(k) < length; ++k) {
+    StaticVector<WorkPoint, most_searched> places;
+    for (int k = 1; !places.full() && static_cast<float>(k) < length; ++k) {
       const float share = static_cast<float>(k) / length;
-      LinePoint point;
-      if (find_line_point(input, {begin.u + share * way.u, begin.v + share * way.v}, way, point)) offer(point);
+      places.push_back({begin.u + share * way.u, begin.v + share * way.v});
     }
+    FoundLinePoints points;
+    find_line_points_at(input, places.span(), way, points);
+    for (const LinePoint& point : points.span()) offer(point);
   }
 
   [[nodiscard]] const BranchFit& fit() const { return fit_; }

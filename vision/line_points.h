@@ -4,6 +4,8 @@
 // line's width: the strongest test there is of what is a line.
 #pragma once
 
+#include <span>
+
 #include "vision/features.h"
 #include "vision/image/bit_image.h"
 #include "vision/image/image_view.h"
@@ -32,9 +34,11 @@ struct LinePointCounts {
   int dropped = 0;  // no room
 };
 
-/// The point of the line through one pixel of the line mask, whose direction in the image (working pixels, any length)
-/// is known: where the skeleton is too short or too bent to tell. False when there is none.
-bool find_line_point(const LinePointInput& input, const WorkPoint& at, const WorkPoint& direction, LinePoint& point);
+/// The points of the line through pixels of the line mask (at most sixteen; others are left out), whose direction in
+/// the image (working pixels, any length) is known: where the skeleton is too short or too bent to tell.
+using FoundLinePoints = StaticVector<LinePoint, probe_lanes>;
+void find_line_points_at(const LinePointInput& input, std::span<const WorkPoint> at, const WorkPoint& direction,
+                         FoundLinePoints& points);
 
 /// Fills `points`, evenly spread over the skeleton's pixels. `scratch` has the skeleton's size.
 LinePointCounts find_line_points(const LinePointInput& input, BitView scratch,

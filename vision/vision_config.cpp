@@ -33,7 +33,8 @@ bool in_reach(const MaskPolygon& polygon) {
 }  // namespace
 
 Status check_config(const VisionConfig& c, const char** what) {
-  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr)
+  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr ||
+      c.kernels.probes.axes == nullptr)
     return refuse(what, "kernels");
   if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
   if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");

@@ -4,9 +4,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "platform/core/rng.h"
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "tests/vision/line_picture.h"
 
 using namespace touchline;
@@ -19,6 +25,14 @@ struct Found {
   LinePointCounts counts;
 };
 
+/// At one place, if there is one.
+bool find_one(const LinePointInput& input, const WorkPoint& at, const WorkPoint& direction, LinePoint& point) {
+  FoundLinePoints points;
+  find_line_points_at(input, {&at, 1}, direction, points);
+  if (!points.empty()) point = points[0];
+  return !points.empty();
+}
+
 std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float line_width) {
   LinePicture picture(scene, pose);
   auto found = std::make_unique<Found>();
@@ -27,7 +41,73 @@ std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float li
   return found;
 }
 
+bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+bool same(const LinePoint& a, const LinePoint& b) {
+  return same_bits(a.pixel.u, b.pixel.u) && same_bits(a.pixel.v, b.pixel.v) && same_bits(a.ground.x, b.ground.x) &&
+         same_bits(a.ground.y, b.ground.y) && same_bits(a.dir_x, b.dir_x) && same_bits(a.dir_y, b.dir_y) &&
+         same_bits(a.length, b.length) && same_bits(a.sigma, b.sigma);
+}
+
+/// Lines of all directions, to the edges of the picture, then speckles on the luma, on the mask and on the skeleton.
+struct RoughInput {
+  LinePicture picture;
+  Bits mask, skeleton;
+  std::vector<std::uint8_t> luma;
+  LinePointInput input;
+
+  RoughInput(const Scene& scene, const CameraPose& pose, Rng& rng) : picture(scene, pose), input(picture.input(0.1F)) {
+    constexpr int w = LinePicture::w, h = LinePicture::h;
+    mask = skeleton = Bits(w, h);
+    luma.assign(static_cast<std::size_t>(w * h), 0);
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        mask.view().set(x, y, input.line_mask.get(x, y) != (rng.below(300) == 0));
+        skeleton.view().set(x, y, input.skeleton.get(x, y) != (rng.below(150) == 0));
+        const int rough = input.luma.row(y)[x] + static_cast<int>(rng.below(41)) - 20;
+        luma[static_cast<std::size_t>(y * w + x)] = static_cast<std::uint8_t>(std::clamp(rough, 0, 255));
+      }
+    }
+    input.luma = {luma.data(), w, h, w};
+    input.line_mask = mask.view();
+    input.skeleton = skeleton.view();
+  }
+};
+
 }  // namespace
+
+TEST_CASE("every table of kernels gives the same points, bit for bit") {
+  Rng rng(3);
+  Scene scene;
+  scene.stripes = {
+      {{-4.0F, -4.0F}, {4.0F, 4.0F}, 0.10F, line_white}, {{-4.0F, 4.0F}, {4.0F, -4.0F}, 0.10F, line_white},
+      {{0.3F, -4.0F}, {0.3F, 4.0F}, 0.10F, line_white},  {{0.8F, -4.0F}, {0.8F, 4.0F}, 0.10F, line_white},
+      {{-4.0F, 0.5F}, {4.0F, 0.5F}, 0.10F, line_white},  {{-4.0F, -0.7F}, {4.0F, -0.7F}, 0.10F, line_white}};
+  for (int view = 0; view < 4; ++view) {
+    CameraPose pose = usual_pose();
+    pose.pitch += rng.uniform(-0.3F, 0.5F);
+    pose.yaw = rng.uniform(-math::pi, math::pi);
+    RoughInput rough(scene, pose, rng);
+    Bits work(LinePicture::w, LinePicture::h);
+    const auto first = std::make_unique<Found>();
+    rough.input.kernels = word_kernels();
+    first->counts = find_line_points(rough.input, work.view(), first->points);
+    CHECK(first->points.size() > 50);
+    CHECK(first->counts.no_edge > 10);
+    CHECK(first->counts.wrong_width > 2);
+    for (const Kernels& kernels : runnable_tables()) {
+      CAPTURE(kernels.name);
+      rough.input.kernels = kernels;
+      const auto other = std::make_unique<Found>();
+      other->counts = find_line_points(rough.input, work.view(), other->points);
+      CHECK(other->counts.considered == first->counts.considered);
+      CHECK(other->counts.no_direction == first->counts.no_direction);
+      CHECK(other->counts.no_edge == first->counts.no_edge);
+      CHECK(other->counts.wrong_width == first->counts.wrong_width);
+      REQUIRE(other->points.size() == first->points.size());
+      for (std::size_t i = 0; i < first->points.size(); ++i) CHECK(same(other->points[i], first->points[i]));
+    }
+  }
+}
 
 TEST_CASE("points lie on the middle of the line on the ground, not of its picture") {
   // A line across, 0.6 m ahead: 16 working pixels wide in the middle of the picture, and nearer ground looks larger.
@@ -100,16 +180,16 @@ TEST_CASE("with its direction given, a piece too short for the skeleton's axis h
   REQUIRE(input.rays.work_point({0.905F, 0.06F}, 0.0F, at));
   REQUIRE(input.rays.work_point({0.905F, 0.08F}, 0.0F, ahead));
   LinePoint point;
-  REQUIRE(find_line_point(input, at, {ahead.u - at.u, ahead.v - at.v}, point));
+  REQUIRE(find_one(input, at, {ahead.u - at.u, ahead.v - at.v}, point));
   CHECK(math::abs(point.ground.x - 0.9F) < 0.004F);
   CHECK(math::abs(point.dir_x) < 0.05F);
   SUBCASE("across the line the width is wrong") {
-    CHECK_FALSE(find_line_point(input, at, {ahead.v - at.v, at.u - ahead.u}, point));
+    CHECK_FALSE(find_one(input, at, {ahead.v - at.v, at.u - ahead.u}, point));
   }
   SUBCASE("beside the mask there is no line, and beyond the picture nothing at all") {
-    CHECK_FALSE(find_line_point(input, {at.u, at.v - 40.0F}, {1.0F, 0.0F}, point));
-    CHECK_FALSE(find_line_point(input, {-1.0F, 5.0F}, {1.0F, 0.0F}, point));
-    CHECK_FALSE(find_line_point(input, {5.0F, 1e12F}, {1.0F, 0.0F}, point));
+    CHECK_FALSE(find_one(input, {at.u, at.v - 40.0F}, {1.0F, 0.0F}, point));
+    CHECK_FALSE(find_one(input, {-1.0F, 5.0F}, {1.0F, 0.0F}, point));
+    CHECK_FALSE(find_one(input, {5.0F, 1e12F}, {1.0F, 0.0F}, point));
   }
 }
 

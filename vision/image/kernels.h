@@ -14,6 +14,7 @@
 #include "vision/image/moments.h"
 #include "vision/image/ridge_search.h"
 #include "vision/image/thinning_pass.h"
+#include "vision/line_probe.h"
 
 namespace touchline {
 
@@ -51,6 +52,7 @@ struct Kernels {
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered
   ThinningKernel thin = nullptr;                                                   // null: thin() has its own
+  ProbeKernels probes;
 };
 
 /// For every processor.

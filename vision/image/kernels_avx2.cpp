@@ -12,6 +12,7 @@
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/thinning_loops.h"
 #include "vision/image/window_moments_avx2.h"
+#include "vision/line_probe_loops.h"
 
 namespace touchline {
 
@@ -27,6 +28,7 @@ Kernels avx2_kernels() {
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx2::window_moments,
       .thin = thinning::run,
+      .probes = probe::kernels<Eight>(),
   };
 }
 

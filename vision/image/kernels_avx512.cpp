@@ -21,6 +21,7 @@
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/thinning_loops.h"
 #include "vision/image/window_moments_avx512.h"
+#include "vision/line_probe_loops.h"
 
 namespace touchline {
 
@@ -36,6 +37,7 @@ Kernels avx512_kernels() {
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx512::window_moments,
       .thin = thinning::run,
+      .probes = probe::kernels<Sixteen>(),
   };
 }
 

@@ -8,6 +8,7 @@
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/ridge_search_words.h"
 #include "vision/image/vector_registers.h"
+#include "vision/line_probe_loops.h"
 
 namespace touchline {
 
@@ -24,6 +25,7 @@ Kernels portable_kernels() {
       .edges = edge_rows::kernels(),
       .window_moments = nullptr,
       .thin = nullptr,
+      .probes = probe::kernels<Eight>(),
   };
 }
 Kernels word_kernels() {
@@ -38,6 +40,7 @@ Kernels word_kernels() {
       .edges = {},
       .window_moments = nullptr,
       .thin = nullptr,
+      .probes = probe::kernels<One>(),
   };
 }
 

@@ -179,6 +179,22 @@ bool Lens::ray(const PixelPoint& pixel, Vec3& ray) const {
   return true;
 }
 
+void Lens::angles(int count, const float* radius, float* u, float* v, float* theta) const {
+  if (parameters_.model == LensModel::equidistant) {  // a plain loop becomes vectors
+    for (int i = 0; i < count; ++i) {
+      theta[i] = equidistant::theta_from_radius(parameters_, math::min(radius[i], max_radius_));
+    }
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    theta[i] = model_theta(parameters_, math::min(radius[i], max_radius_));
+    if (!bends_angle_) continue;
+    const auto [s, c] = math::sin_cos(polynomial::corrected_angle(parameters_, math::atan2(v[i], u[i])));
+    u[i] = radius[i] * c;
+    v[i] = radius[i] * s;
+  }
+}
+
 bool Lens::pixel(const Vec3& ray, PixelPoint& pixel) const {
   const float across = math::hypot(ray.x, ray.y);
   if (across == 0.0F && ray.z == 0.0F) return false;

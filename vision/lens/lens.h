@@ -66,6 +66,9 @@ class Lens {
   [[nodiscard]] bool pixel(const Vec3& ray, PixelPoint& pixel) const;
   /// pixel() of many rays, bit for bit.
   void pixels(RayLanes& rays) const;
+  /// The first half of ray(), for many pixels: angles off the axis, from distances to the principal point (those beyond
+  /// max_radius() count as it). `u` and `v`, offsets from that point, turn where the lens bends the polar angle.
+  void angles(int count, const float* radius, float* u, float* v, float* theta) const;
   /// Radius of the image circle, camera pixels.
   [[nodiscard]] float max_radius() const { return max_radius_; }
   [[nodiscard]] const LensParameters& parameters() const { return parameters_; }

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -191,6 +192,35 @@ TEST_CASE("nothing is seen beyond max_theta, and what is refused stays unchanged
     CHECK_FALSE(lens.ray({not_a_number, 0.0F}, ray));
     CHECK_FALSE(lens.pixel({not_a_number, 0.0F, 1.0F}, pixel));
     CHECK_FALSE(lens.pixel({0.0F, 0.0F, 0.0F}, pixel));
+  }
+}
+
+TEST_CASE("angles() is the first half of ray(), and takes what lies beyond the image circle for its edge") {
+  for (const NamedLens& named : all_lenses()) {
+    CAPTURE(named.name);
+    Lens lens;
+    REQUIRE(Lens::create(named.parameters, lens) == Status::ok);
+    constexpr int n = 50;
+    Rng rng(4);
+    float u[n], v[n], radius[n], theta[n];
+    for (int i = 0; i < n; ++i) {
+      u[i] = rng.uniform(-0.6F, 0.6F) * lens.max_radius();
+      v[i] = i == 0 ? 5.0F * lens.max_radius() : rng.uniform(-0.6F, 0.6F) * lens.max_radius();
+      radius[i] = math::hypot(u[i], v[i]);
+    }
+    float turned_u[n], turned_v[n];
+    std::copy_n(u, n, turned_u);
+    std::copy_n(v, n, turned_v);
+    lens.angles(n, radius, turned_u, turned_v, theta);
+    CHECK(theta[0] == doctest::Approx(lens.parameters().max_theta).epsilon(1e-4));
+    for (int i = 1; i < n; ++i) {
+      Vec3 ray;
+      REQUIRE(lens.ray({lens.parameters().cx + u[i], lens.parameters().cy + v[i]}, ray));
+      const float scale = math::sin(theta[i]) / radius[i];
+      CHECK(turned_u[i] * scale == doctest::Approx(ray.x).epsilon(1e-4));
+      CHECK(turned_v[i] * scale == doctest::Approx(ray.y).epsilon(1e-4));
+      CHECK(math::cos(theta[i]) == doctest::Approx(ray.z).epsilon(1e-4));
+    }
   }
 }
 
