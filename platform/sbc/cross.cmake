@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # What the toolchain files of this folder share. They set `triplet` and `emulator` first.
 #   -DTOUCHLINE_SYSROOT=FOLDER   Debian packages of the board, unpacked by sysroot.sh: needed for TOUCHLINE_HOST and
-#                                TOUCHLINE_BACKENDS. Without it, the core and its tests are linked statically.
+#                                TOUCHLINE_BACKENDS. Without it, the core and its tests are linked statically, all but the
+#                                one that counts allocations (tests/heap).
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_C_COMPILER ${triplet}-gcc)
 set(CMAKE_CXX_COMPILER ${triplet}-g++)
