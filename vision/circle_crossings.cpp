@@ -76,8 +76,11 @@ bool on_centre_circle(const JunctionSearch& search, const GroundPoint& p) {
   if (search.circle == nullptr) return false;
   const GroundPoint& centre = search.circle->observation.centre;
   const float off = math::hypot(p.x - centre.x, p.y - centre.y) - search.circle->radius_m;
-  const float outwards = math::atan2(p.y - centre.y, p.x - centre.x);
-  return off < 1.5F * search.parameters.line_width_m + 2.0F * search.sight.metres_per_px(p, outwards);
+  const GroundPixel pixel(search.rays, p);
+  const auto room = [&](float px) { return 1.5F * search.parameters.line_width_m + 2.0F * px; };
+  if (off > (1.0F + pixel_slack) * room(pixel.longest())) return false;
+  if (off < (1.0F - pixel_slack) * room(pixel.shortest())) return true;
+  return off < room(pixel.along(Heading(math::atan2(p.y - centre.y, p.x - centre.x))));
 }
 
 bool on_half_line(const JunctionSearch& search, const GroundPoint& p, float direction) {
@@ -85,8 +88,7 @@ bool on_half_line(const JunctionSearch& search, const GroundPoint& p, float dire
   const CircleObservation& circle = search.circle->observation;
   const float x = circle.centre.x - p.x;
   const float y = circle.centre.y - p.y;
-  const float c = math::cos(circle.half_line_direction);
-  const float s = math::sin(circle.half_line_direction);
+  const auto [s, c] = math::sin_cos(circle.half_line_direction);
   const float across = math::abs(c * y - s * x);
   const float aside = wrap_angle(circle.half_line_direction + math::half_pi);
   if (across > 1.5F * search.parameters.line_width_m + 2.0F * search.sight.metres_per_px(p, aside)) return false;

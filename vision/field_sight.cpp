@@ -77,11 +77,18 @@ bool FieldSight::reaches(const LineSegment& s, const GroundPoint& direction, con
   const bool first = math::abs(before) < math::abs(after);
   const float gap = math::abs(first ? before : after);
   const GroundPixel pixel(rays_, at);
-  // The longest pixel tells of most that they do not.
-  if (gap > 1.001F * (max_gap_widths * line_width_ + near_px * pixel.longest())) return false;
-  const float px = pixel.along(Heading(math::atan2(direction.y, direction.x)));
-  if (gap <= math::max(near_widths * line_width_, near_px * px)) return true;
-  if (gap > math::min(max_gap_px * px, max_gap_widths * line_width_ + near_px * px)) return false;
+  const auto near = [&](float px) { return math::max(near_widths * line_width_, near_px * px); };
+  const auto far = [&](float px) { return math::min(max_gap_px * px, max_gap_widths * line_width_ + near_px * px); };
+  // The longest and the shortest pixel tell of most; only for the others the direction is worked out.
+  if (gap > (1.0F + pixel_slack) * far(pixel.longest())) return false;
+  if (gap < (1.0F - pixel_slack) * near(pixel.shortest())) return true;
+  const bool between =
+      gap > (1.0F + pixel_slack) * near(pixel.longest()) && gap < (1.0F - pixel_slack) * far(pixel.shortest());
+  if (!between) {
+    const float px = pixel.along(Heading(math::atan2(direction.y, direction.x)));
+    if (gap <= near(px)) return true;
+    if (gap > far(px)) return false;
+  }
   return look(first ? s.end[0] : s.end[1], at).white >= white_enough;
 }
 
@@ -89,15 +96,17 @@ float FieldSight::place_sigma(const GroundPoint& p, const LineSegment& a, float 
   const GroundPoint middle{0.5F * (a.end[0].x + a.end[1].x), 0.5F * (a.end[0].y + a.end[1].y)};
   const float heading = math::atan2(a.direction.y, a.direction.x);
   const float rag = line_widths * line_width_;
-  const float off =
-      math::hypot(a.sigma * ground_distance(middle, p), rag) / metres_per_px(p, wrap_angle(heading + math::half_pi));
-  const float ahead = math::hypot(along, rag) / metres_per_px(p, heading);
+  const GroundPixel pixel(rays_, p);
+  const float off = math::hypot(a.sigma * ground_distance(middle, p), rag) /
+                    pixel.along(Heading(wrap_angle(heading + math::half_pi)));
+  const float ahead = math::hypot(along, rag) / pixel.along(Heading(heading));
   return math::sqrt(off * off + ahead * ahead + 2.0F * line_px * line_px);
 }
 
-bool FieldSight::has_flanks(const GroundPoint& from, float direction, float length) const {
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
-  const float px = metres_per_px(from, wrap_angle(direction + math::half_pi));
+bool FieldSight::has_flanks(const GroundPoint& from, const GroundPixel& pixel, const Heading& heading,
+                            float length) const {
+  const GroundPoint& out = heading.out;
+  const float px = pixel.along(Heading(wrap_angle(heading.angle + math::half_pi)));
   const float aside = 0.75F * line_width_ + flank_px * px;
   for (const float side : {1.0F, -1.0F}) {
     int carpet = 0, other = 0;

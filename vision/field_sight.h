@@ -41,6 +41,9 @@ struct Heading {
   GroundPoint out;
 };
 
+/// For what is told by the longest or the shortest pixel at a place and not by that in a direction: more than rounding.
+inline constexpr float pixel_slack = 1.0e-3F;
+
 /// What a working pixel means on the ground at a point.
 class GroundPixel {
  public:
@@ -52,8 +55,9 @@ class GroundPixel {
     const float c = (x_ * heading.out.x + y_ * heading.out.y) / range_;
     return math::sqrt(math::square(towards_ * c) + math::square(across_) * (1.0F - c * c));
   }
-  /// Metres in the worst one, away from the camera.
+  /// Metres in the worst one, away from the camera, and in the best.
   [[nodiscard]] float longest() const { return towards_; }
+  [[nodiscard]] float shortest() const { return across_; }
 
  private:
   float x_ = 0.0F, y_ = 0.0F, range_ = 0.0F;  // of the point, from the camera's foot
@@ -85,8 +89,10 @@ class FieldSight {
   [[nodiscard]] bool reaches(const LineSegment& s, const GroundPoint& direction, const GroundPoint& at) const;
   /// How well a crossing on the line `a` is known, working pixels: `a` across itself, and `along` metres along it.
   [[nodiscard]] float place_sigma(const GroundPoint& p, const LineSegment& a, float along) const;
-  /// Whether carpet is seen on both sides of a branch that leaves `p`. A post or a foot on a line may look like one.
-  [[nodiscard]] bool has_flanks(const GroundPoint& p, float direction, float length) const;
+  /// Whether carpet is seen on both sides of a branch that leaves `p`, where a working pixel is `pixel`. A post or a
+  /// foot on a line may look like one.
+  [[nodiscard]] bool has_flanks(const GroundPoint& p, const GroundPixel& pixel, const Heading& heading,
+                                float length) const;
 
  private:
   const WorkRays& rays_;

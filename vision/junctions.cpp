@@ -38,10 +38,15 @@ class JunctionJudge {
   void merge(std::size_t best);
   void classify(const JunctionCandidate& c);
   void accept_t(const JunctionCandidate& c, const float* directions, int gap, float quality) const;
-  [[nodiscard]] Way way(const JunctionCandidate& c, float direction) const;
-  [[nodiscard]] bool is_long(const JunctionCandidate& c, float direction) const;
-  [[nodiscard]] bool is_middle(const JunctionCandidate& c, float direction) const;
-  [[nodiscard]] bool goes_on(const JunctionCandidate& c, float direction, float length) const;
+  /// A place with what a working pixel means there.
+  struct Spot {
+    GroundPoint ground;
+    GroundPixel pixel;
+  };
+  [[nodiscard]] Way way(const Spot& spot, const Heading& heading) const;
+  [[nodiscard]] bool is_long(const Spot& spot, const Heading& heading) const;
+  [[nodiscard]] bool is_middle(const Spot& spot, const Heading& heading) const;
+  [[nodiscard]] bool goes_on(const Spot& spot, const Heading& heading, float length) const;
 
   const JunctionSearch& search_;
 };
@@ -53,13 +58,16 @@ void JunctionJudge::merge(std::size_t best) {
   GroundPoint sum;
   float weights = 0.0F;
   const GroundPixel pixel(search_.rays, c.ground);
-  const float farthest = 1.001F * math::max(radius, same_px * pixel.longest());  // tells most without their angle
+  const float surely_apart = (1.0F + pixel_slack) * math::max(radius, same_px * pixel.longest());
+  const float surely_same = (1.0F - pixel_slack) * math::max(radius, same_px * pixel.shortest());
   for (JunctionCandidate& other : search_.work.candidates) {
     if (other.taken) continue;
     const float apart = ground_distance(other.ground, c.ground);
-    if (apart > farthest) continue;
-    const Heading towards(math::atan2(other.ground.y - c.ground.y, other.ground.x - c.ground.x));
-    if (apart > math::max(radius, same_px * pixel.along(towards))) continue;
+    if (apart > surely_apart) continue;
+    if (apart > surely_same) {
+      const Heading towards(math::atan2(other.ground.y - c.ground.y, other.ground.x - c.ground.x));
+      if (apart > math::max(radius, same_px * pixel.along(towards))) continue;
+    }
     other.taken = true;
     if (other.sigma > merge_sigmas * c.sigma) continue;
     const float w = 1.0F / math::square(other.sigma);
@@ -90,62 +98,64 @@ void JunctionJudge::classify_all() {
 }
 
 /// Whether a line that was seen on both sides of an obstacle runs through the junction in a direction.
-bool JunctionJudge::goes_on(const JunctionCandidate& c, float direction, float length) const {
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
-  const float aside = 0.5F * search_.parameters.line_width_m +
-                      search_.sight.metres_per_px(c.ground, wrap_angle(direction + math::half_pi));
+bool JunctionJudge::goes_on(const Spot& spot, const Heading& heading, float length) const {
+  const GroundPoint& out = heading.out;
+  const float aside =
+      0.5F * search_.parameters.line_width_m + spot.pixel.along(Heading(wrap_angle(heading.angle + math::half_pi)));
   for (const LineSegment& s : search_.lines.segments) {
     if (s.on_circle || s.is_short || s.sigma > long_line_sigma) continue;
     if (line_angle(s.direction, out) > right_angle_tolerance) continue;
-    if (math::abs(distance_across(s, c.ground)) > aside) continue;
+    if (math::abs(distance_across(s, spot.ground)) > aside) continue;
     for (const GroundPoint& end : s.end) {
-      if ((end.x - c.ground.x) * out.x + (end.y - c.ground.y) * out.y > length) return true;
+      if ((end.x - spot.ground.x) * out.x + (end.y - spot.ground.y) * out.y > length) return true;
     }
   }
   return false;
 }
 
 /// What leaves the junction in a direction.
-Way JunctionJudge::way(const JunctionCandidate& c, float direction) const {
+Way JunctionJudge::way(const Spot& spot, const Heading& heading) const {
   const float half = 0.5F * search_.parameters.line_width_m;
-  const float px = search_.sight.metres_per_px(c.ground, direction);
-  const float length = search_.sight.min_branch(c.ground, direction);
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
-  const auto at = [&](float d) { return GroundPoint{c.ground.x + d * out.x, c.ground.y + d * out.y}; };
+  const float px = spot.pixel.along(heading);
+  const float length = search_.sight.min_branch(px);
+  const auto at = [&](float d) {
+    return GroundPoint{spot.ground.x + d * heading.out.x, spot.ground.y + d * heading.out.y};
+  };
   const Sight branch = search_.sight.look(at(half + 0.5F * px), at(half + 0.5F * px + length));
   // A branch that the picture cuts off is one as far as it goes, when that is far enough.
   const float seen_length = branch.inside * length;
   const bool enough_seen = seen_length >= math::max(cut_widths * search_.parameters.line_width_m, cut_px * px);
   const bool whole = branch.inside >= 1.0F;
   if ((whole || enough_seen) && branch.white >= white_enough * branch.inside &&
-      search_.sight.has_flanks(c.ground, direction, half + length))
+      search_.sight.has_flanks(spot.ground, spot.pixel, heading, half + length))
     return Way::line;
   // The mask of the line across reaches a pixel or two beyond its edge.
   const float edge = 1.3F * half + 2.0F * px;
   const float enough = math::max(bare_widths * search_.parameters.line_width_m, bare_px * px);
   const Sight beyond = search_.sight.look(at(edge), at(edge + enough));
   if (!beyond.seen || beyond.middle > dark_enough || beyond.carpet < white_enough) {
-    return goes_on(c, direction, half + length) ? Way::line : Way::hidden;
+    return goes_on(spot, heading, half + length) ? Way::line : Way::hidden;
   }
   return Way::carpet;
 }
 
-bool JunctionJudge::is_long(const JunctionCandidate& c, float direction) const {
+bool JunctionJudge::is_long(const Spot& spot, const Heading& heading) const {
   const float half = 0.5F * search_.parameters.line_width_m;
   const float length = long_branch_widths * search_.parameters.line_width_m;
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
-  const GroundPoint end{c.ground.x + (half + length) * out.x, c.ground.y + (half + length) * out.y};
-  return search_.sight.look(c.ground, end).white >= white_enough &&
-         search_.sight.has_flanks(c.ground, direction, half + length);
+  const GroundPoint& out = heading.out;
+  const GroundPoint end{spot.ground.x + (half + length) * out.x, spot.ground.y + (half + length) * out.y};
+  return search_.sight.look(spot.ground, end).white >= white_enough &&
+         search_.sight.has_flanks(spot.ground, spot.pixel, heading, half + length);
 }
 
-bool JunctionJudge::is_middle(const JunctionCandidate& c, float direction) const {
-  const float from = 0.5F * search_.parameters.line_width_m + search_.sight.metres_per_px(c.ground, direction);
-  const float to = from + search_.sight.min_branch(c.ground, direction);
-  const GroundPoint out{math::cos(direction), math::sin(direction)};
+bool JunctionJudge::is_middle(const Spot& spot, const Heading& heading) const {
+  const float px = spot.pixel.along(heading);
+  const float from = 0.5F * search_.parameters.line_width_m + px;
+  const float to = from + search_.sight.min_branch(px);
+  const GroundPoint& out = heading.out;
   return search_.sight
-             .look({c.ground.x + from * out.x, c.ground.y + from * out.y},
-                   {c.ground.x + to * out.x, c.ground.y + to * out.y})
+             .look({spot.ground.x + from * out.x, spot.ground.y + from * out.y},
+                   {spot.ground.x + to * out.x, spot.ground.y + to * out.y})
              .middle >= white_enough;
 }
 
@@ -165,12 +175,15 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
   const bool left = angle_difference(c.other, c.heading) > 0.0F;  // `other` is counter-clockwise of `heading`
   const float second = left ? c.other : wrap_angle(c.other + math::pi);
   const float directions[4] = {c.heading, second, wrap_angle(c.heading + math::pi), wrap_angle(second + math::pi)};
+  const Spot spot{c.ground, GroundPixel(search_.rays, c.ground)};
+  const Heading headings[4] = {Heading(directions[0]), Heading(directions[1]), Heading(directions[2]),
+                               Heading(directions[3])};
   bool is_line[4] = {};
   int lines = 0;
   bool hidden = false;
   Way ways[4] = {};
   for (int i = 0; i < 4; ++i) {
-    const Way w = way(c, directions[i]);
+    const Way w = way(spot, headings[i]);
     ways[i] = w;
     is_line[i] = w == Way::line;
     lines += is_line[i] ? 1 : 0;
@@ -181,7 +194,7 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
     bool thin[4] = {};  // beside the middle of a line
     int weak = 0;
     for (int i = 0; i < 4; ++i) {
-      thin[i] = !is_middle(c, directions[i]);
+      thin[i] = !is_middle(spot, headings[i]);
       weak += thin[i] ? 1 : 0;
     }
     for (int i = 0; i < 4 && weak == 1; ++i) is_line[i] = !thin[i];
@@ -192,7 +205,7 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
   // The half line ends at both touch lines: with the centre circle in view, a T there is known by its stem.
   int stem = 0;
   while (stem < 4 && !(is_line[stem] && on_half_line(search_, c.ground, directions[stem]))) ++stem;
-  const auto long_half = [&](int i) { return is_line[i % 4] && is_long(c, directions[i % 4]); };
+  const auto long_half = [&](int i) { return is_line[i % 4] && is_long(spot, headings[i % 4]); };
   if (hidden && stem < 4 && is_half_line_end(ways, stem) && (long_half(stem + 1) || long_half(stem + 3)))
     return accept_t(c, directions, (stem + 2) % 4, quality);
   // Straight lines of a field never cross, so what is behind the bar of a T need not be seen.
@@ -202,7 +215,7 @@ void JunctionJudge::classify(const JunctionCandidate& c) {
     int gap = 0;
     while (is_line[gap]) ++gap;
     // With what is behind the bar hidden, a foot on a line could be the stem, were it long enough.
-    if (hidden && !is_long(c, directions[(gap + 2) % 4]))
+    if (hidden && !is_long(spot, headings[(gap + 2) % 4]))
       return reject_junction(search_, c, lines, JunctionRejection::at_border);
     return accept_t(c, directions, gap, quality);
   }
