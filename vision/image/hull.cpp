@@ -35,15 +35,33 @@ int hull_of_sorted(std::span<const GridPoint> points, std::span<GridPoint> out) 
   return static_cast<int>(size > 1 ? size - 1 : size);  // the last is the first again
 }
 
-/// Where the side a-b (a.y < b.y) crosses row y, rounded up or down.
-int crossing(GridPoint a, GridPoint b, int y, bool round_up) {
-  const int rise = b.y - a.y;
-  const int run = (b.x - a.x) * (y - a.y);
-  // Floored division; C++ rounds toward zero.
-  const int numerator = round_up ? run + rise - 1 : run;
-  const int quotient = numerator >= 0 ? numerator / rise : -((-numerator + rise - 1) / rise);
-  return a.x + quotient;
-}
+/// Where a side of the hull, from a corner down to another one, crosses the rows, one after the other.
+class Side {
+ public:
+  Side(GridPoint from, GridPoint to) : rise_(to.y - from.y), x_(from.x) {
+    const int run = to.x - from.x;
+    step_ = run / rise_;
+    step_rest_ = run % rise_;
+    if (step_rest_ < 0) {  // floored; C++ rounds toward zero
+      --step_;
+      step_rest_ += rise_;
+    }
+  }
+  void go_down() {
+    x_ += step_;
+    rest_ += step_rest_;
+    if (rest_ >= rise_) {
+      rest_ -= rise_;
+      ++x_;
+    }
+  }
+  [[nodiscard]] int rounded_down() const { return x_; }
+  [[nodiscard]] int rounded_up() const { return rest_ > 0 ? x_ + 1 : x_; }
+
+ private:
+  int rise_, step_, step_rest_;
+  int x_, rest_ = 0;  // x is x_ + rest_ / rise_
+};
 
 }  // namespace
 
@@ -54,8 +72,10 @@ int hull_of_points(std::span<GridPoint> points, std::span<GridPoint> out) {
 }
 
 int hull_of_mask(ConstBitView mask, std::span<GridPoint> scratch, std::span<GridPoint> out) {
+  // The right side has the last pixels of rows, and the left side the first ones.
   const int words = words_for(mask.width);
-  std::size_t count = 0;
+  std::size_t lefts = 0;
+  std::size_t size = 0;
   for (int y = 0; y < mask.height; ++y) {
     const BitWord* row = mask.row(y);
     int first = 0;
@@ -63,31 +83,50 @@ int hull_of_mask(ConstBitView mask, std::span<GridPoint> scratch, std::span<Grid
     while (first < words && row[first] == 0) ++first;
     if (first == words) continue;
     while (row[last] == 0) --last;
-    const int left = first * bits_per_word + std::countr_zero(row[first]);
-    const int right = last * bits_per_word + bits_per_word - 1 - std::countl_zero(row[last]);
-    scratch[count++] = {static_cast<std::int16_t>(left), static_cast<std::int16_t>(y)};
-    if (right != left) scratch[count++] = {static_cast<std::int16_t>(right), static_cast<std::int16_t>(y)};
+    const GridPoint left{static_cast<std::int16_t>(first * bits_per_word + std::countr_zero(row[first])),
+                         static_cast<std::int16_t>(y)};
+    const GridPoint right{
+        static_cast<std::int16_t>(last * bits_per_word + bits_per_word - 1 - std::countl_zero(row[last])), left.y};
+    scratch[lefts++] = left;
+    const bool is_first = size == 0;
+    if (is_first) out[size++] = left;
+    if (!is_first || right != left) extend(out, size, 1, right);
   }
-  return hull_of_sorted(scratch.first(count), out);
+  if (size < 2) return static_cast<int>(size);
+  const std::size_t bottom = size;
+  if (scratch[lefts - 1] == out[size - 1]) --lefts;
+  while (lefts > 0) extend(out, size, bottom, scratch[--lefts]);
+  return static_cast<int>(size - 1);  // the last is the first again
 }
 
 void fill_hull(BitView mask, std::span<const GridPoint> hull) {
   if (hull.empty()) return;
   const std::size_t n = hull.size();
-  const auto at = [&](std::size_t i) { return hull[i % n]; };
+  const auto at = [&](std::size_t i) { return hull[i == n ? 0 : i]; };
   const int bottom = std::max_element(hull.begin(), hull.end(), [](auto a, auto b) { return a.y < b.y; })->y;
   const int top = hull[0].y;
+  if (top == bottom) {
+    set_span(mask, top, at(0).x, at(n - 1).x, true);
+    return;
+  }
   // The sides that cross the row: right from a corner down to the next, left from a corner down to the one before.
   std::size_t right = at(1).y == top ? 1 : 0;
   std::size_t left = n;
-  for (int y = top; y <= bottom; ++y) {
-    if (top == bottom) {
-      set_span(mask, y, at(0).x, at(n - 1).x, true);
-      return;
+  Side right_side(at(right), at(right + 1));
+  Side left_side(at(left), at(left - 1));
+  for (int y = top;; ++y) {
+    set_span(mask, y, left_side.rounded_up(), right_side.rounded_down(), true);
+    if (y == bottom) return;
+    if (at(right + 1).y == y) {
+      ++right;
+      right_side = Side(at(right), at(right + 1));
     }
-    while (at(right + 1).y < y) ++right;
-    while (at(left - 1).y < y) --left;
-    set_span(mask, y, crossing(at(left), at(left - 1), y, true), crossing(at(right), at(right + 1), y, false), true);
+    if (at(left - 1).y == y) {
+      --left;
+      left_side = Side(at(left), at(left - 1));
+    }
+    right_side.go_down();
+    left_side.go_down();
   }
 }
 
