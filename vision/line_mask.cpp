@@ -7,10 +7,8 @@
 #include <cstring>
 
 #include "vision/image/bit_ops.h"
-#include "vision/image/half_level_loops.h"
 #include "vision/image/morphology.h"
 #include "vision/image/neighbour_words.h"
-#include "vision/image/vector_registers.h"
 #include "vision/image/word_lanes.h"
 
 namespace touchline {
@@ -56,17 +54,21 @@ bool below_half_level(ImageView<const std::uint8_t> luma, int x, int y) {
 }
 
 /// Of 64 pixels from x0 on the `wanted` ones below half level.
-BitWord below_half_level(ImageView<const std::uint8_t> luma, int x0, int y, BitWord wanted) {
-  constexpr int group_px = 16;
+BitWord below_half_level(ImageView<const std::uint8_t> luma, int x0, int y, BitWord wanted, const Kernels& kernels) {
   BitWord below = 0;
-  if constexpr (vector_registers) {
-    if (y >= 2 && y + 2 < luma.height) {
-      for (int i = 0; i < bits_per_word; i += group_px) {
-        const BitWord group = wanted & BitWord{0xFFFF} << i;
-        if (group == 0 || x0 + i < 2 || x0 + i + group_px + 2 > luma.width) continue;
-        below |= group & BitWord{half_level::sixteen_below(luma, x0 + i, y)} << i;
-        wanted &= ~group;
-      }
+  if (kernels.below_half_level != nullptr && y >= 2 && y + 2 < luma.height) {
+    const std::uint8_t* at = luma.row(y) + x0;
+    const std::ptrdiff_t stride = luma.stride;
+    const bool before = y > 2 || x0 >= 2;
+    const bool after =
+        y + 3 < luma.height ? x0 + bits_per_word + 2 <= luma.width + stride : x0 + bits_per_word + 2 <= luma.width;
+    if (before && after) {  // all that is looked at is in memory; beside the image it means nothing
+      BitWord inner = wanted;
+      if (x0 == 0) inner &= ~BitWord{3};
+      const int end = luma.width - 2 - x0;
+      if (end < bits_per_word) inner &= end > 0 ? ~(~BitWord{0} << end) : 0;
+      if (inner != 0) below = kernels.below_half_level(at, stride, inner);
+      wanted &= ~inner;
     }
   }
   for_each_bit(wanted, [&](int bit) {
@@ -76,11 +78,12 @@ BitWord below_half_level(ImageView<const std::uint8_t> luma, int x0, int y, BitW
 }
 
 /// Sets of the pixels of `lines` those below half level.
-void mark_below_half_level(ImageView<const std::uint8_t> luma, ConstBitView lines, BitView below) {
+void mark_below_half_level(ImageView<const std::uint8_t> luma, ConstBitView lines, BitView below,
+                           const Kernels& kernels) {
   for (int y = 0; y < lines.height; ++y) {
     for (int i = 0; i < words_for(lines.width); ++i) {
       const BitWord word = lines.row(y)[i];
-      below.row(y)[i] = word == 0 ? 0 : below_half_level(luma, i * bits_per_word, y, word);
+      below.row(y)[i] = word == 0 ? 0 : below_half_level(luma, i * bits_per_word, y, word, kernels);
     }
   }
 }
@@ -89,23 +92,31 @@ void mark_below_half_level(ImageView<const std::uint8_t> luma, ConstBitView line
 void trim_border(ConstBitView below, BitView lines) {
   using Row = std::array<BitWord, words_for(max_mask_width)>;
   const int words = words_for(lines.width);
-  Row rows[2] = {};  // the one above, and this one, as they were before
+  const Row nothing = {};
+  Row copies[2];
+  const BitWord* above = nothing.data();  // as it was before
   for (int y = 0; y < lines.height; ++y) {
-    const Row& above = rows[(y + 1) % 2];
-    Row& here = rows[y % 2];
-    std::copy_n(lines.row(y), words, here.begin());
-    for (int i = 0; i < words; ++i) {
-      const BitWord dark = below.row(y)[i];
-      if (dark == 0) continue;
-      const auto at = static_cast<std::size_t>(i);
-      const RowTriple middle = row_triple(here.data(), i, words);
-      BitWord inner = middle.west & middle.east;
-      inner &= above[at];
-      inner &= y + 1 < lines.height ? lines.row(y + 1)[i] : 0;
-      lines.row(y)[i] &= ~dark | inner;
+    BitWord* row = lines.row(y);
+    const BitWord* dark = below.row(y);
+    BitWord any = 0;
+    for (int i = 0; i < words; ++i) any |= dark[i];
+    if (any == 0) {
+      above = row;
+      continue;
     }
+    const BitWord* under = y + 1 < lines.height ? lines.row(y + 1) : nothing.data();
+    Row& here = copies[y % 2];
+    std::copy_n(row, words, here.begin());
+    for (int i = 0; i < words; ++i) {
+      const RowTriple middle = row_triple(here.data(), i, words);
+      row[i] &= ~dark[i] | (middle.west & middle.east & above[i] & under[i]);
+    }
+    above = here.data();
   }
 }
+
+/// The highest mask: bounds the steps of growing on the stack (160 bytes).
+constexpr int max_mask_height = 1280;
 
 /// The widest line of a row of blocks.
 int widest(LineWidthView widths, int block_y) {
@@ -114,41 +125,59 @@ int widest(LineWidthView widths, int block_y) {
   return most;
 }
 
+void copy_rows(ConstBitView from, int first, int end, BitView to) {
+  for (int y = first; y < end; ++y) std::copy_n(from.row(y), words_for(from.width), to.row(y));
+}
+
+/// Adds to row y the `white` pixels beside those that the lines had. True when there are any.
+bool grow_row(ConstBitView white, ConstBitView before, int y, BitView lines) {
+  const int words = words_for(lines.width);
+  const BitWord* around[3] = {before.row(std::max(y - 1, 0)), before.row(y),
+                              before.row(std::min(y + 1, before.height - 1))};
+  std::array<BitWord, words_for(max_mask_width)> column;
+  BitWord open = 0;
+  for (int i = 0; i < words; ++i) {
+    column[static_cast<std::size_t>(i)] = around[0][i] | around[1][i] | around[2][i];
+    open |= white.row(y)[i] & ~around[1][i];
+  }
+  if (open == 0) return false;
+  BitWord added = 0;
+  for (int i = 0; i < words; ++i) {
+    const RowTriple near = row_triple(column.data(), i, words);
+    const BitWord more = (near.west | near.here | near.east) & white.row(y)[i] & ~around[1][i];
+    lines.row(y)[i] |= more;
+    added |= more;
+  }
+  return added != 0;
+}
+
 }  // namespace
 
-void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch) {
+void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch, const Kernels& kernels) {
   assert(lines.width <= max_mask_width);
-  mark_below_half_level(luma, lines, scratch);
+  mark_below_half_level(luma, lines, scratch, kernels);
   for (int pass = 0; pass < 2; ++pass) trim_border(scratch, lines);
 }
 
 void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch) {
+  assert(lines.width <= max_mask_width && lines.height <= max_mask_height);
   constexpr int max_steps = 16;  // half of a line of 32 px: nearer than a robot's own feet
-  const int words = words_for(lines.width);
-  for (int step = 1; step <= max_steps; ++step) {
-    BitWord added = 0;
-    bool any = false;
-    bool grows = false;  // the rows of this row of blocks
-    copy(lines, scratch);
-    for (int y = 0; y < lines.height; ++y) {
-      if (y % width_block_px == 0) grows = widest(widths, std::min(y / width_block_px, widths.height - 1)) >= step * 32;
-      if (!grows) continue;
-      any = true;
-      for (int i = 0; i < words; ++i) {
-        const BitWord open = white.row(y)[i] & ~lines.row(y)[i];
-        if (open == 0) continue;
-        BitWord spread = 0;
-        for (int dy = -1; dy <= 1; ++dy) {
-          if (y + dy < 0 || y + dy >= lines.height) continue;
-          const RowTriple row = row_triple(static_cast<ConstBitView>(scratch).row(y + dy), i, words);
-          spread |= row.west | row.here | row.east;
-        }
-        lines.row(y)[i] |= spread & open;
-        added |= spread & open;
-      }
+  std::array<std::uint8_t, max_mask_height / width_block_px> steps{};  // of each row of blocks
+  for (int i = 0; i < widths.height; ++i) {
+    steps[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(widest(widths, i) / 32, max_steps));
+  }
+  // Only rows beside one that has changed can gain: where a step finds nothing, the next one finds nothing.
+  int first = 0, end = lines.height;
+  for (int step = 1; step <= max_steps && first < end; ++step) {
+    copy_rows(lines, std::max(first - 1, 0), std::min(end + 1, lines.height), scratch);
+    int first_changed = lines.height, last_changed = -1;
+    for (int y = first; y < end; ++y) {
+      if (steps[static_cast<std::size_t>(y / width_block_px)] < step || !grow_row(white, scratch, y, lines)) continue;
+      first_changed = std::min(first_changed, y);
+      last_changed = y;
     }
-    // The next step looks at fewer rows yet: where this one found nothing, it finds nothing.
-    if (!any || added == 0) return;
+    first = std::max(first_changed - 1, 0);
+    end = std::min(last_changed + 2, lines.height);
   }
 }
 

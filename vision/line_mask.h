@@ -5,13 +5,15 @@
 
 #include "vision/image/bit_image.h"
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 #include "vision/line_width_table.h"
 
 namespace touchline {
 
 /// Takes pixels off the border of `lines` whose luma is nearer to the carpet's than to the line's (the darkest and the
 /// brightest within two pixels): what blur and the coarser chroma let in. Two passes. `scratch` has the same size.
-void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch);
+void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch,
+                        const Kernels& kernels = portable_kernels());
 
 /// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line,
 /// and the rest of a line that the picture's border cuts. `scratch` has the same size.

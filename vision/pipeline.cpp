@@ -135,7 +135,7 @@ void Pipeline::find_green_stage(VisionResult& result) {
   erode(clean, scaled(config_.green_erode_px));
   dilate(clean, scaled(config_.green_dilate_px));
   result.green = clean;
-  result.counts.green_pixels = count(clean);
+  result.counts.green_pixels = count(clean, config_.kernels);
 }
 
 void Pipeline::find_roi(VisionResult& result) {
@@ -157,7 +157,7 @@ void Pipeline::find_roi(VisionResult& result) {
   }
   result.field = field;
   result.roi = roi;
-  result.counts.roi_pixels = count(roi);
+  result.counts.roi_pixels = count(roi, config_.kernels);
 }
 
 void Pipeline::find_candidates(VisionResult& result) {
@@ -179,7 +179,7 @@ void Pipeline::find_candidates(VisionResult& result) {
   and_with(candidates, roi);
   result.edges = edges;
   result.candidates = candidates;
-  result.counts.candidate_pixels = count(candidates);
+  result.counts.candidate_pixels = count(candidates, config_.kernels);
 }
 
 void Pipeline::make_line_mask(VisionResult& result) {
@@ -188,14 +188,14 @@ void Pipeline::make_line_mask(VisionResult& result) {
   copy(views_.mask(MaskId::candidates), lines);
   and_with(white, views_.mask(MaskId::roi));
   grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
-  trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch));
+  trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch), config_.kernels);
   close_lines(views_.mask(MaskId::green), scaled(config_.line_dilate_px), scaled(config_.line_erode_px), lines,
               views_.mask(MaskId::scratch));
   and_with(lines, views_.mask(MaskId::roi));
   find_post_colour(result);
   if (!config_.white_posts) and_not_with(lines, views_.mask(MaskId::post_colour));
   result.line_mask = lines;
-  result.counts.line_pixels = count(lines);
+  result.counts.line_pixels = count(lines, config_.kernels);
 }
 
 void Pipeline::make_skeleton(VisionResult& result) {
@@ -209,7 +209,7 @@ void Pipeline::make_skeleton(VisionResult& result) {
                            graph.points.subspan(graph.points.size() / 2)});
   result.counts.dropped_points = pieces.overflowed;
   result.skeleton = skeleton;
-  result.counts.skeleton_pixels = count(skeleton);
+  result.counts.skeleton_pixels = count(skeleton, config_.kernels);
 }
 
 void Pipeline::digest_skeleton(VisionResult& result) {

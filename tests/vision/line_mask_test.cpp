@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <random>
+#include <vector>
 
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 #include "vision/image/bit_ops.h"
 
 namespace touchline {
@@ -57,7 +59,53 @@ Bits plainly_trimmed(const Gray& luma, const Bits& before) {
   return lines;
 }
 
+/// Step by step, all pixels each.
+Bits plainly_grown(const Bits& white, const std::vector<LineWidth>& widths, int columns, const Bits& before) {
+  Bits lines = before;
+  for (int step = 1; step <= 16; ++step) {
+    const Bits last = lines;
+    for_each_set_bit(white.view(), [&](int x, int y) {
+      int widest = 0;
+      for (int i = 0; i < columns; ++i) {
+        widest = std::max<int>(widest, widths[static_cast<std::size_t>(y / 8 * columns + i)].slanted);
+      }
+      if (widest < step * 32) return;
+      for (int v = y - 1; v <= y + 1; ++v) {
+        for (int u = x - 1; u <= x + 1; ++u) {
+          if (last.view().get(u, v)) lines.view().set(x, y, true);
+        }
+      }
+    });
+  }
+  return lines;
+}
+
 }  // namespace
+
+TEST_CASE("lines grow in white by half of their width, row of blocks by row of blocks, at every size") {
+  unsigned seed = 0;
+  int grown = 0;
+  for (const auto& [w, h] : test::awkward_sizes()) {
+    if (w == 0 || h == 0) continue;
+    for (const int percent : {45, 70, 95}) {
+      std::mt19937 random(++seed);
+      const int height = h * 9;
+      const int columns = (w + 7) / 8, rows = (height + 7) / 8;
+      std::vector<LineWidth> widths(static_cast<std::size_t>(columns * rows));
+      for (LineWidth& width : widths) {
+        width.slanted = static_cast<std::uint16_t>(random() % 16 == 0 ? 65535 : random() % 8 * 24);
+      }
+      const Bits white = test::random_bits(w, height, percent, seed);
+      const Bits before = test::random_bits(w, height, 1, seed + 100);
+      Bits after = before;
+      Bits scratch = test::random_bits(w, height, 50, seed + 1);
+      grow_into_white(white.view(), {widths.data(), columns, rows, columns}, after.view(), scratch.view());
+      REQUIRE(ascii(after) == ascii(plainly_grown(white, widths, columns, before)));
+      grown += count(after.view()) - count(before.view());
+    }
+  }
+  CHECK(grown > 1000);
+}
 
 TEST_CASE("the border is trimmed twice by the rule, at every size") {
   unsigned seed = 0;
@@ -68,11 +116,15 @@ TEST_CASE("the border is trimmed twice by the rule, at every size") {
       Gray luma(w, h * 3);
       for (std::uint8_t& v : luma.samples) v = static_cast<std::uint8_t>(percent == 80 ? random() % 3 : random());
       const Bits before = test::random_bits(w, h * 3, percent, seed);
-      Bits after = before;
-      Bits scratch = test::random_bits(w, h * 3, 50, seed + 1);
-      trim_to_half_level(luma.view(), after.view(), scratch.view());
-      REQUIRE(ascii(after) == ascii(plainly_trimmed(luma, before)));
-      trimmed += count(before.view()) - count(after.view());
+      const auto expected = ascii(plainly_trimmed(luma, before));
+      for (const Kernels& kernels : test::all_tables()) {
+        CAPTURE(kernels.name);
+        Bits after = before;
+        Bits scratch = test::random_bits(w, h * 3, 50, seed + 1);
+        trim_to_half_level(luma.view(), after.view(), scratch.view(), kernels);
+        REQUIRE(ascii(after) == expected);
+        trimmed += count(before.view()) - count(after.view());
+      }
     }
   }
   CHECK(trimmed > 1000);

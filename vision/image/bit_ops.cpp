@@ -94,6 +94,11 @@ int count(ConstBitView mask) {
   return sum;
 }
 
+int count(ConstBitView mask, const Kernels& kernels) {
+  if (kernels.count_bits == nullptr || mask.stride != words_for(mask.width)) return count(mask);
+  return kernels.count_bits(mask.words, std::ptrdiff_t{mask.stride} * mask.height);
+}
+
 bool equal(ConstBitView a, ConstBitView b) {
   if (a.width != b.width || a.height != b.height) return false;
   for (int y = 0; y < a.height; ++y) {

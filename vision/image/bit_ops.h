@@ -7,6 +7,7 @@
 #include <span>
 
 #include "vision/image/bit_image.h"
+#include "vision/image/kernels.h"
 #include "vision/image/vector_registers.h"
 
 namespace touchline {
@@ -40,6 +41,7 @@ void or_with(BitView target, ConstBitView other);
 /// target = target AND NOT other.
 void and_not_with(BitView target, ConstBitView other);
 [[nodiscard]] int count(ConstBitView mask);
+[[nodiscard]] int count(ConstBitView mask, const Kernels& kernels);
 [[nodiscard]] bool equal(ConstBitView a, ConstBitView b);
 /// Whether a pixel of the rectangle is set, first and last both included; all of it lies inside the image.
 [[nodiscard]] bool any_set(ConstBitView mask, int first_x, int first_y, int last_x, int last_y);

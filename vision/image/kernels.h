@@ -51,7 +51,11 @@ struct Kernels {
   CarpetKernels carpet;
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered
-  ThinningKernel thin = nullptr;                                                   // null: thin() has its own
+  /// Of 64 pixels from `at` on the `wanted` ones whose luma is below the middle between the darkest and the brightest
+  /// within two pixels, of which all are in memory. Null: not offered.
+  std::uint64_t (*below_half_level)(const std::uint8_t* at, std::ptrdiff_t stride, std::uint64_t wanted) = nullptr;
+  int (*count_bits)(const std::uint64_t* words, std::ptrdiff_t size) = nullptr;  // null: not offered
+  ThinningKernel thin = nullptr;                                                 // null: thin() has its own
   ProbeKernels probes;
 };
 

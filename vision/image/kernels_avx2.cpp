@@ -5,7 +5,9 @@
 
 #if defined(__x86_64__) && defined(__AVX2__)
 #include "vision/image/carpet_rows_loops.h"
+#include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
+#include "vision/image/half_level_loops.h"
 #include "vision/image/halve_rows_avx2.h"
 #include "vision/image/luma_bands_avx2.h"
 #include "vision/image/mean_rows_loops.h"
@@ -27,6 +29,8 @@ Kernels avx2_kernels() {
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx2::window_moments,
+      .below_half_level = half_level::below_half_level,
+      .count_bits = bit_count::count_bits,
       .thin = thinning::run,
       .probes = probe::kernels<Eight>(),
   };

@@ -14,7 +14,9 @@
 #pragma GCC diagnostic pop
 #endif
 #include "vision/image/carpet_rows_avx512.h"
+#include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
+#include "vision/image/half_level_loops.h"
 #include "vision/image/halve_rows_avx512.h"
 #include "vision/image/luma_bands_avx512.h"
 #include "vision/image/mean_rows_loops.h"
@@ -36,6 +38,8 @@ Kernels avx512_kernels() {
       .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx512::window_moments,
+      .below_half_level = half_level::below_half_level,
+      .count_bits = bit_count::count_bits,
       .thin = thinning::run,
       .probes = probe::kernels<Sixteen>(),
   };

@@ -2,6 +2,7 @@
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/carpet_rows_words.h"
 #include "vision/image/edge_rows_loops.h"
+#include "vision/image/half_level_loops.h"
 #include "vision/image/kernels.h"
 #include "vision/image/luma_bands_words.h"
 #include "vision/image/mean_rows_loops.h"
@@ -24,6 +25,8 @@ Kernels portable_kernels() {
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = nullptr,
+      .below_half_level = half_level::below_half_level,
+      .count_bits = nullptr,
       .thin = nullptr,
       .probes = probe::kernels<Eight>(),
   };
@@ -39,6 +42,8 @@ Kernels word_kernels() {
       .carpet = carpet_words::kernels(),
       .edges = {},
       .window_moments = nullptr,
+      .below_half_level = nullptr,
+      .count_bits = nullptr,
       .thin = nullptr,
       .probes = probe::kernels<One>(),
   };

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/support/ascii_image.h"
+#include "tests/support/kernel_tables.h"
 
 using namespace touchline;
 using namespace touchline::test;
@@ -35,6 +36,11 @@ TEST_CASE("logic of two masks is the logic of their pixels, and the padding stay
     CHECK(count(a.view()) == set);
     CHECK(count(full.view()) == w * h);
     CHECK(count(none.view()) == 0);
+    for (const Kernels& kernels : test::all_tables()) {
+      CAPTURE(kernels.name);
+      CHECK(count(a.view(), kernels) == set);
+      CHECK(count(full.view(), kernels) == w * h);
+    }
     CHECK(equal(a.view(), copied.view()));
     CHECK(padding_is_clear(inverse.view()));
     CHECK(padding_is_clear(full.view()));
