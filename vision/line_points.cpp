@@ -2,6 +2,7 @@
 #include "vision/line_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstdint>
 
@@ -18,10 +19,11 @@ constexpr int direction_radius_px = 5;  // of the skeleton's pixels that give th
 constexpr float long_most_across = 0.015F;
 constexpr float short_most_across = 0.08F;
 
+const std::uint8_t* bytes_of(const ConstBitView& mask) { return reinterpret_cast<const std::uint8_t*>(mask.words); }
+
 ProbePicture picture_of(const LinePointInput& input) {
-  const auto bytes = [](const ConstBitView& mask) { return reinterpret_cast<const std::uint8_t*>(mask.words); };
   return {input.luma.data,
-          bytes(input.line_mask),
+          bytes_of(input.line_mask),
           static_cast<std::int32_t>(input.luma.stride),
           input.line_mask.stride * bits_per_word / 8,
           input.luma.width,
@@ -98,9 +100,17 @@ class PointFinder {
   /// line: at ends, forks and bends, where the middle of the line means nothing.
   void find_axes(int radius, float most_across, LineProbes& probes) const {
     ProbeMoments all;
+    ProbeWindows windows{bytes_of(input_.skeleton), input_.skeleton.stride * bits_per_word / 8, radius};
     for (int i = 0; i < probes.count; ++i) {
       if (probes.state[i] == probe_alive) continue;
       const GridPoint at{static_cast<std::int16_t>(probes.x[i]), static_cast<std::int16_t>(probes.y[i])};
+      MomentWindow window;
+      if (input_.kernels.probes.moments != nullptr && make_window(input_.skeleton, at, radius, window)) {
+        windows.asked |= 1U << i;
+        windows.offset[i] = static_cast<std::int32_t>(window.bytes - windows.bytes);
+        windows.shift[i] = window.shift;
+        continue;
+      }
       const Moments m = moments_around(input_.skeleton, at, radius, input_.kernels);
       all.n[i] = m.n;
       all.x[i] = m.x;
@@ -109,6 +119,7 @@ class PointFinder {
       all.xy[i] = m.xy;
       all.yy[i] = m.yy;
     }
+    if (windows.asked != 0) input_.kernels.probes.moments(windows, all);
     input_.kernels.probes.axes(all, radius, most_across, probes);
   }
 
@@ -134,21 +145,43 @@ class Spread {
         counts_(counts) {}
 
   void run() {
-    for_each_set_bit(skeleton_, [this](int x, int y) {
-      if (passed_.get(x, y)) return;
-      probes_.x[probes_.count] = x;
-      probes_.y[probes_.count] = y;
-      pass(x, y, true);
-      if (++probes_.count == probe_lanes) look();
-    });
+    for (int y = 0; y < skeleton_.height; ++y) {
+      for (int word = 0; word < words_for(skeleton_.width); ++word) {
+        BitWord ahead = ~BitWord{0};
+        for (BitWord left = to_ask(y, word); left != 0; left = to_ask(y, word) & ahead) {
+          const int bit = std::countr_zero(left);
+          ahead = ~BitWord{1} << bit;
+          ask(word * bits_per_word + bit, y);
+        }
+      }
+    }
     look();
   }
 
  private:
-  /// Pixels behind (x, y) that are too near for a point of their own.
+  /// Pixels that are neither asked nor passed over.
+  [[nodiscard]] BitWord to_ask(int y, int word) const { return skeleton_.row(y)[word] & ~passed_.row(y)[word]; }
+
+  void ask(int x, int y) {
+    probes_.x[probes_.count] = x;
+    probes_.y[probes_.count] = y;
+    pass(x, y, true);
+    if (++probes_.count == probe_lanes) look();
+  }
+
+  /// Pixels from row y on that are too near for a point of their own.
   void pass(int x, int y, bool value) {
-    for (int ny = y; ny < std::min(y + spacing_, passed_.height); ++ny) {
-      set_span(passed_, ny, x - spacing_ + 1, x + spacing_ - 1, value);
+    const int first = std::max(x - spacing_ + 1, 0);
+    const int last = std::min(x + spacing_ - 1, passed_.width - 1);
+    const int end = std::min(y + spacing_, passed_.height);
+    if (first / bits_per_word != last / bits_per_word) {
+      for (int ny = y; ny < end; ++ny) set_span(passed_, ny, first, last, value);
+      return;
+    }
+    const BitWord span = ~BitWord{0} >> (bits_per_word - 1 - (last - first)) << (first % bits_per_word);
+    for (int ny = y; ny < end; ++ny) {
+      BitWord& word = passed_.row(ny)[first / bits_per_word];
+      word = value ? word | span : word & ~span;
     }
   }
 

@@ -28,6 +28,16 @@ struct ProbeMoments {
   alignas(64) ProbeInts n = {}, x = {}, y = {}, xx = {}, xy = {}, yy = {};
 };
 
+/// The windows that they are taken from, all of one mask, wholly inside its memory: pixel x of a row is bit `shift` + x
+/// of the four bytes there.
+struct ProbeWindows {
+  const std::uint8_t* bytes = nullptr;
+  std::int32_t stride = 0;                        // bytes
+  int radius = 0;                                 // 1 to max_window_radius
+  std::uint32_t asked = 0;                        // a bit for each window that is
+  alignas(64) ProbeInts offset = {}, shift = {};  // of the first row, bytes; 0 to 7
+};
+
 struct LineProbes {
   int count = 0;
   alignas(64) ProbeInts x = {}, y = {};  // working pixels
@@ -65,6 +75,8 @@ struct ProbeView {
 
 /// The steps, in this order. Each takes those that are alive, the first those without a direction.
 struct ProbeKernels {
+  /// Of the windows that are asked for; the others' are left as they are. Null: not offered.
+  void (*moments)(const ProbeWindows& windows, ProbeMoments& moments) = nullptr;
   /// Main axis of at least `least` pixels, whose variance across is at most the share `most_across` of that along.
   void (*axes)(const ProbeMoments& moments, int least, float most_across, LineProbes& probes) = nullptr;
   void (*edges)(const ProbePicture& picture, LineProbes& probes) = nullptr;

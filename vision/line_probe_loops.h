@@ -377,8 +377,8 @@ void places(const ProbeView& view, LineProbes& probes) {
 }
 
 template <class L>
-constexpr ProbeKernels kernels() {
-  return {axes<L>, edges<L>, widths<L>, places<L>};
+constexpr ProbeKernels kernels(void (*moments)(const ProbeWindows&, ProbeMoments&) = nullptr) {
+  return {moments, axes<L>, edges<L>, widths<L>, places<L>};
 }
 
 }  // namespace probe

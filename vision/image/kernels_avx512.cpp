@@ -24,6 +24,7 @@
 #include "vision/image/thinning_loops.h"
 #include "vision/image/window_moments_avx512.h"
 #include "vision/line_probe_loops.h"
+#include "vision/probe_moments_avx512.h"
 
 namespace touchline {
 
@@ -41,7 +42,7 @@ Kernels avx512_kernels() {
       .below_half_level = half_level::below_half_level,
       .count_bits = bit_count::count_bits,
       .thin = thinning::run,
-      .probes = probe::kernels<Sixteen>(),
+      .probes = probe::kernels<Sixteen>(probe_avx512::moments),
   };
 }
 

@@ -65,7 +65,8 @@ Moments count_moments(ConstBitView mask, GridPoint at, int radius) {
   return m;
 }
 
-/// False when the window is not wholly inside the mask's memory.
+}  // namespace
+
 bool make_window(ConstBitView mask, GridPoint at, int radius, MomentWindow& window) {
   const int left = at.x - radius;
   const int row_bytes = words_for(mask.width) * bits_per_word / 8;
@@ -75,8 +76,6 @@ bool make_window(ConstBitView mask, GridPoint at, int radius, MomentWindow& wind
   window = {row + left / 8, reinterpret_cast<const std::uint8_t*>(mask.row(at.y - radius + 1)) - row, left % 8, radius};
   return true;
 }
-
-}  // namespace
 
 Moments moments_around(ConstBitView mask, GridPoint at, int radius, const Kernels& kernels) {
   MomentWindow window;

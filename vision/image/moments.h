@@ -26,6 +26,9 @@ struct MomentWindow {
 };
 inline constexpr int max_window_radius = 10;  // 7 bits of shift and 21 pixels are 28 bits of 32
 
+/// The window of `radius` around `at`; false when it is not wholly inside the mask's memory.
+bool make_window(ConstBitView mask, GridPoint at, int radius, MomentWindow& window);
+
 struct Kernels;
 /// Of the pixels of the square 2 radius + 1 around `at` that lie in the image. Radius 1 to 15.
 Moments moments_around(ConstBitView mask, GridPoint at, int radius, const Kernels& kernels);

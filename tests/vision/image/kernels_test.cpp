@@ -109,6 +109,44 @@ TEST_CASE("moments of a window are those of its pixels, one by one") {
   }
 }
 
+TEST_CASE("moments of sixteen windows are those of each, and of those that are not asked nothing is changed") {
+  Rng rng(9);
+  for (int turn = 0; turn < 40; ++turn) {
+    const int width = 40 + static_cast<int>(rng.below(100));
+    const auto density = static_cast<std::uint32_t>(turn % 4);  // of pixels that are left out
+    test::Bits mask(width, 50);
+    for (int y = 0; y < mask.height; ++y) {
+      for (int x = 0; x < width; ++x) mask.view().set(x, y, rng.below(4) >= density);
+    }
+    const int radius = 1 + static_cast<int>(rng.below(max_window_radius));
+    ProbeWindows windows{reinterpret_cast<const std::uint8_t*>(mask.words.data()), words_for(width) * 8, radius};
+    Moments want[probe_lanes];
+    for (int i = 0; i < probe_lanes; ++i) {
+      const GridPoint at{static_cast<std::int16_t>(rng.below(static_cast<std::uint32_t>(width))),
+                         static_cast<std::int16_t>(rng.below(50))};
+      MomentWindow window;
+      if (!make_window(mask.view(), at, radius, window)) continue;
+      windows.asked |= 1U << i;
+      windows.offset[i] = static_cast<std::int32_t>(window.bytes - windows.bytes);
+      windows.shift[i] = window.shift;
+      want[i] = moments_around(mask.view(), at, radius, word_kernels());
+    }
+    for (const Kernels& kernels : test::runnable_tables()) {
+      if (kernels.probes.moments == nullptr) continue;
+      ProbeMoments m;
+      std::fill_n(m.n, probe_lanes, -7);
+      kernels.probes.moments(windows, m);
+      for (int i = 0; i < probe_lanes; ++i) {
+        if ((windows.asked >> i & 1U) == 0) {
+          CHECK(m.n[i] == -7);
+        } else {
+          CHECK(Moments{m.n[i], m.x[i], m.y[i], m.xx[i], m.xy[i], m.yy[i]} == want[i]);
+        }
+      }
+    }
+  }
+}
+
 /// An image of few grey levels and colours, so that many pixels are as bright as their margin, with masks and widths to
 /// search it for ridges.
 struct RidgeScene {
