@@ -181,10 +181,11 @@ void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, Bi
   }
 }
 
-void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch) {
+void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch,
+                 const Kernels& kernels) {
   copy(lines, scratch);
-  dilate(lines, dilate_px);
-  erode(lines, erode_px);
+  dilate(lines, dilate_px, kernels.join_squares);
+  erode(lines, erode_px, kernels.join_squares);
   and_not_with(lines, carpet);
   or_with(lines, scratch);
 }

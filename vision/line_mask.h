@@ -22,6 +22,7 @@ void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, Bi
 /// The paper's dilation and erosion (section IV-C), sides in pixels: joins both edges of a line and closes its breaks.
 /// What they add and has the carpet's colour is taken out again: two lines that meet at a sharp angle, or run a pixel
 /// apart, stay two up to where no carpet is seen between them. `scratch` has the same size.
-void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch);
+void close_lines(ConstBitView carpet, int dilate_px, int erode_px, BitView lines, BitView scratch,
+                 const Kernels& kernels = portable_kernels());
 
 }  // namespace touchline

@@ -132,8 +132,8 @@ void Pipeline::find_green_stage(VisionResult& result) {
   const BitView& clean = views_.mask(MaskId::clean_green);
   copy(views_.mask(MaskId::green), clean);
   or_with(clean, candidates);
-  erode(clean, scaled(config_.green_erode_px));
-  dilate(clean, scaled(config_.green_dilate_px));
+  erode(clean, scaled(config_.green_erode_px), config_.kernels.join_squares);
+  dilate(clean, scaled(config_.green_dilate_px), config_.kernels.join_squares);
   result.green = clean;
   result.counts.green_pixels = count(clean, config_.kernels);
 }
@@ -190,7 +190,7 @@ void Pipeline::make_line_mask(VisionResult& result) {
   grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
   trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch), config_.kernels);
   close_lines(views_.mask(MaskId::green), scaled(config_.line_dilate_px), scaled(config_.line_erode_px), lines,
-              views_.mask(MaskId::scratch));
+              views_.mask(MaskId::scratch), config_.kernels);
   and_with(lines, views_.mask(MaskId::roi));
   find_post_colour(result);
   if (!config_.white_posts) and_not_with(lines, views_.mask(MaskId::post_colour));

@@ -74,9 +74,9 @@ inline Bits random_bits(int width, int height, int percent, unsigned seed) {
 
 /// Sizes that go wrong first: nothing, one and two pixels, around the word, and the working sizes.
 inline const std::vector<std::pair<int, int>>& awkward_sizes() {
-  static const std::vector<std::pair<int, int>> sizes = {{0, 0},  {0, 5},  {5, 0},   {1, 1},   {1, 9},   {9, 1},
-                                                         {2, 2},  {2, 9},  {9, 2},   {3, 3},   {63, 7},  {64, 7},
-                                                         {65, 7}, {64, 1}, {128, 3}, {129, 3}, {320, 9}, {640, 5}};
+  static const std::vector<std::pair<int, int>> sizes = {
+      {0, 0},  {0, 5},  {5, 0},  {1, 1},  {1, 9},   {9, 1},   {2, 2},   {2, 9},   {9, 2},  {3, 3},
+      {63, 7}, {64, 7}, {65, 7}, {64, 1}, {128, 3}, {129, 3}, {320, 9}, {512, 3}, {640, 5}};
   return sizes;
 }
 

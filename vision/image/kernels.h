@@ -48,6 +48,7 @@ struct Kernels {
   void (*find_ridges)(const RidgeSearch& search) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
+  bool (*join_squares)(BitView mask, bool dilate, int passes) = nullptr;  // null: not offered (morphology.h)
   CarpetKernels carpet;
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered

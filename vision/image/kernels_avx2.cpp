@@ -26,6 +26,7 @@ Kernels avx2_kernels() {
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
+      .join_squares = nullptr,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx2::window_moments,

@@ -18,6 +18,7 @@
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/half_level_loops.h"
 #include "vision/image/halve_rows_avx512.h"
+#include "vision/image/join_squares_avx512.h"
 #include "vision/image/luma_bands_avx512.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_search_loops.h"
@@ -36,6 +37,7 @@ Kernels avx512_kernels() {
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
+      .join_squares = squares_avx512::join_squares,
       .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx512::window_moments,

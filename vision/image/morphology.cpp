@@ -84,15 +84,16 @@ void pass_3x3(BitView mask) {
 }
 
 template <typename Operation>
-void passes(BitView mask, int kernel_side) {
+void passes(BitView mask, int kernel_side, JoinSquares kernel) {
   assert(mask.width <= max_mask_width);
-  if (mask.width <= 0 || mask.height <= 0) return;
+  if (mask.width <= 0 || mask.height <= 0 || kernel_side < 2) return;
+  if (kernel != nullptr && kernel(mask, Operation::outside == 0, kernel_side / 2)) return;
   for (int i = 0; i < kernel_side / 2; ++i) pass_3x3<Operation>(mask);
 }
 
 }  // namespace
 
-void dilate(BitView mask, int kernel_side) { passes<Dilation>(mask, kernel_side); }
-void erode(BitView mask, int kernel_side) { passes<Erosion>(mask, kernel_side); }
+void dilate(BitView mask, int kernel_side, JoinSquares kernel) { passes<Dilation>(mask, kernel_side, kernel); }
+void erode(BitView mask, int kernel_side, JoinSquares kernel) { passes<Erosion>(mask, kernel_side, kernel); }
 
 }  // namespace touchline
