@@ -189,13 +189,20 @@ std::uint16_t Builder::follow(GridPoint from, int direction) {
   int y = from.y;
   add_point(x, y);
   for (int n = 0; n < skeleton_.size(); ++n) {  // no pixel is walked twice
-    x += neighbour_dx[direction];
-    y += neighbour_dy[direction];
+    const int qx = x + neighbour_dx[direction];
+    const int qy = y + neighbour_dy[direction];
+    if (!is_open(qx, qy)) {
+      const std::uint16_t node = node_at(qx, qy);
+      if (node != of_line) add_point(qx, qy);
+      return node;  // of_line is no_node
+    }
+    x = qx;
+    y = qy;
     add_point(x, y);
-    if (!is_open(x, y)) return node_at(x, y);
     close(x, y);
-    const unsigned back = 1U << (static_cast<unsigned>(direction) ^ 4U);
-    direction = next_way(x, y, skeleton_.steps(x, y) & ~back);
+    const unsigned ways = skeleton_.steps(x, y) & ~(1U << (static_cast<unsigned>(direction) ^ 4U));
+    // Most pixels have one way on: whether it is taken is seen when it is walked.
+    direction = (ways & (ways - 1)) == 0 && ways != 0 ? std::countr_zero(ways) : next_way(x, y, ways);
     if (direction < 0) break;
   }
   return no_node;

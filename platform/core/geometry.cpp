@@ -13,12 +13,6 @@ Mat3 multiply(const Mat3& a, const Mat3& b) {
   return product;
 }
 
-Vec3 normalized(const Vec3& v) {
-  const float length = math::sqrt(dot(v, v));
-  if (!(length > 0.0F)) return {};
-  return {v.x / length, v.y / length, v.z / length};
-}
-
 Mat3 rotation_x(float angle) {
   const auto [s, c] = math::sin_cos(angle);
   return {{{1.0F, 0.0F, 0.0F}, {0.0F, c, -s}, {0.0F, s, c}}};

@@ -57,7 +57,11 @@ inline Vec3 multiply_transposed(const Mat3& a, const Vec3& v) {
 }
 Mat3 multiply(const Mat3& a, const Mat3& b);
 /// Unit vector; the zero vector stays zero.
-Vec3 normalized(const Vec3& v);
+inline Vec3 normalized(const Vec3& v) {
+  const float length = math::sqrt(dot(v, v));
+  if (!(length > 0.0F)) return {};
+  return {v.x / length, v.y / length, v.z / length};
+}
 /// Rotations by the right-hand rule about the named axis.
 Mat3 rotation_x(float angle);
 Mat3 rotation_y(float angle);
