@@ -2,8 +2,11 @@
 // A frame as it looks from a pose: where the field's points lie in the picture, with the mount's errors taken out.
 #pragma once
 
+#include <algorithm>
+
 #include "platform/core/elementary.h"
 #include "platform/core/geometry.h"
+#include "vision/image/bit_ops.h"
 #include "vision/vision_result.h"
 
 namespace touchline {
@@ -28,27 +31,30 @@ class PoseView {
   }
   /// False when the point lies outside the picture or beyond the lens.
   [[nodiscard]] bool camera_pixel(const GroundPoint& g, PixelPoint& p) const {
-    return projection_.pixel(g, p) && p.u >= 0.0F && p.v >= 0.0F && p.u < static_cast<float>(vision_.frame_width) &&
-           p.v < static_cast<float>(vision_.frame_height);
+    return projection_.pixel(g, p) && in_picture(p);
   }
   [[nodiscard]] bool working_pixel(const GroundPoint& g, int& x, int& y) const {
     PixelPoint p;
-    if (!camera_pixel(g, p)) return false;
+    return projection_.pixel(g, p) && working_pixel(p, x, y);
+  }
+  /// Of a camera pixel; false outside the picture.
+  [[nodiscard]] bool working_pixel(const PixelPoint& p, int& x, int& y) const {
+    if (!in_picture(p)) return false;
     x = static_cast<int>(p.u * scale_u_);
     y = static_cast<int>(p.v * scale_v_);
     return x < vision_.work_width && y < vision_.work_height;
   }
-  /// Whether the line mask has a pixel within `reach` of (x, y), rows and columns each.
+  /// Whether the line mask has a pixel within `reach` of (x, y), which lies in the picture; rows and columns each.
   [[nodiscard]] bool line_near(int x, int y, int reach) const {
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        if (vision_.line_mask.get(x + dx, y + dy)) return true;
-      }
-    }
-    return false;
+    return any_set(vision_.line_mask, std::max(x - reach, 0), std::max(y - reach, 0),
+                   std::min(x + reach, vision_.work_width - 1), std::min(y + reach, vision_.work_height - 1));
   }
 
  private:
+  [[nodiscard]] bool in_picture(const PixelPoint& p) const {
+    return p.u >= 0.0F && p.v >= 0.0F && p.u < static_cast<float>(vision_.frame_width) &&
+           p.v < static_cast<float>(vision_.frame_height);
+  }
   static CameraPose corrected(CameraPose camera, float pitch_error, float roll_error) {
     camera.pitch += pitch_error;
     camera.roll += roll_error;

@@ -17,6 +17,7 @@ struct Look {
   float max_range;
   int reach;
   Visibility out;
+  RayLanes waiting;  // points on the ground that have not been looked at
 
   /// Carpet all around: the sample and its neighbours at the tolerance are green.
   [[nodiscard]] bool green_around(int x, int y) const {
@@ -27,14 +28,24 @@ struct Look {
   void sample(const FieldPoint& p) {
     const GroundPoint g = view.ground(p);
     if (g.x * g.x + g.y * g.y > max_range * max_range) return;
-    int x = 0;
-    int y = 0;
-    if (!view.working_pixel(g, x, y) || !vision.roi.get(x, y)) return;
-    if (view.line_near(x, y, reach)) {
-      out.seen += spacing_m;
-    } else if (green_around(x, y)) {
-      out.missing += spacing_m;
+    waiting.add(g);
+    if (waiting.count == RayLanes::most) look();
+  }
+
+  void look() {
+    view.projection().pixels(waiting);
+    for (int i = 0; i < waiting.count; ++i) {
+      int x = 0;
+      int y = 0;
+      if (waiting.seen[i] == 0 || !view.working_pixel(PixelPoint{waiting.u[i], waiting.v[i]}, x, y)) continue;
+      if (!vision.roi.get(x, y)) continue;
+      if (view.line_near(x, y, reach)) {
+        out.seen += spacing_m;
+      } else if (green_around(x, y)) {
+        out.missing += spacing_m;
+      }
     }
+    waiting.count = 0;
   }
 
   void segment(const FieldLine& line) {
@@ -52,7 +63,8 @@ struct Look {
     const int n = static_cast<int>(math::two_pi * radius / spacing_m);
     for (int i = 0; i < n && i < max_samples_per_line; ++i) {
       const float a = math::two_pi * static_cast<float>(i) / static_cast<float>(n);
-      sample({radius * math::cos(a), radius * math::sin(a)});
+      const auto [sine, cosine] = math::sin_cos(a);
+      sample({radius * cosine, radius * sine});
     }
   }
 };
@@ -61,13 +73,12 @@ struct Look {
 
 Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
                             float max_range) {
-  Look look{vision,
-            PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
-            max_range,
-            tolerance_px * vision.work_width / 320,
-            {}};
+  Look look{vision,    PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
+            max_range, tolerance_px * vision.work_width / 320,
+            {},        {}};
   for (const FieldLine& line : field.lines()) look.segment(line);
   if (field.dimensions().circle_radius > 0.0F) look.circle(field.dimensions().circle_radius);
+  look.look();
   return look.out;
 }
 
