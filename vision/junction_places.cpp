@@ -44,8 +44,21 @@ struct BranchFit {
   }
 };
 
+/// How far from a branch a point may lie.
+float reach_across(const LinePoint& p, float line_width_m) {
+  return math::max(gate_widths * line_width_m, gate_px * p.sigma);
+}
+
+/// Whether a point can belong to a branch in any direction: most are told by this alone.
+bool may_be_near(const GroundPoint& at, const LinePoint& p, float line_width_m) {
+  constexpr float slack = 1.01F;  // unit vectors are so to rounding
+  const float squared = math::square(p.ground.x - at.x) + math::square(p.ground.y - at.y);
+  return squared <= slack * (end_m * end_m + math::square(reach_across(p, line_width_m)));
+}
+
 class BranchFitter {
  public:
+  BranchFitter() = default;
   BranchFitter(const Junction& j, float direction, float line_width_m)
       : at_(j.ground), out_{math::cos(direction), math::sin(direction)}, line_width_m_(line_width_m) {}
 
@@ -56,7 +69,7 @@ class BranchFitter {
     const float along = dx * out_.x + dy * out_.y;
     const float across = dy * out_.x - dx * out_.y;
     if (along < 0.5F * line_width_m_ + begin_px * p.sigma || along > end_m) return;
-    if (math::abs(across) > math::max(gate_widths * line_width_m_, gate_px * p.sigma)) return;
+    if (math::abs(across) > reach_across(p, line_width_m_)) return;
     if (math::abs(out_.x * p.dir_y - out_.y * p.dir_x) > sin_same_direction) return;
     fit_.add(along, across, 1.0F / math::square(point_sigma_px * p.sigma));
   }
@@ -86,7 +99,7 @@ class BranchFitter {
 
  private:
   GroundPoint at_, out_;  // the junction, and the unit direction of the branch
-  float line_width_m_;
+  float line_width_m_ = 0.0F;
   BranchFit fit_;
 };
 
@@ -111,12 +124,17 @@ void place_junctions(const LinePointInput& input, Features& features) {
     const float prior_det = prior.xx * prior.yy - prior.xy * prior.xy;
     if (!(prior_det > 0.0F)) continue;
     Correction sum{prior.yy / prior_det, -prior.xy / prior_det, prior.xx / prior_det};
+    StaticVector<BranchFitter, 4> branches;  // as many as an X has
     for (int i = 0; i < j.branches; ++i) {
-      const float direction = j.direction[static_cast<std::size_t>(i)];
-      BranchFitter fitter(j, direction, input.line_width_m);
-      for (const LinePoint& p : features.line_points) fitter.offer(p);
-      if (!(fitter.fit().w > 0.0F)) fitter.search(input);
-      add_branch(fitter.fit(), direction, sum);
+      branches.push_back(BranchFitter(j, j.direction[static_cast<std::size_t>(i)], input.line_width_m));
+    }
+    for (const LinePoint& p : features.line_points) {
+      if (!may_be_near(j.ground, p, input.line_width_m)) continue;
+      for (BranchFitter& branch : branches) branch.offer(p);
+    }
+    for (std::size_t i = 0; i < branches.size(); ++i) {
+      if (!(branches[i].fit().w > 0.0F)) branches[i].search(input);
+      add_branch(branches[i].fit(), j.direction[i], sum);
     }
     const float det = sum.xx * sum.yy - sum.xy * sum.xy;  // > 0: the prior's part is positive definite
     const GroundPoint at{j.ground.x + (sum.yy * sum.x - sum.xy * sum.y) / det,
