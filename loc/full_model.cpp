@@ -55,7 +55,7 @@ Factor square_root(const PoseCovariance& c) {
   return f;
 }
 
-/// Log likelihoods of particles' poses, eight at a time.
+/// Log likelihoods of particles' poses, sixteen at a time.
 class PoseJudge {
  public:
   PoseJudge(const Field& field, const DistanceField& map, const Observation& observation, const LocalizerConfig& config,
@@ -64,7 +64,7 @@ class PoseJudge {
     prepare_lines(map, observation, particle_sigma, 1, lines_);
     prepare_landmarks(field, observation, config.landmarks, particle_sigma, landmarks_);
   }
-  /// `line_costs`: nats >= 0, the line points' part of it. Both have room for eight.
+  /// `line_costs`: nats >= 0, the line points' part of it. Both have room for sixteen.
   void judge(const PoseBlock& poses, float* line_costs, float* log_likelihoods) {
     float landmark_costs[pose_lanes];
     kernels_.line_costs(lines_, poses, line_costs);

@@ -243,11 +243,11 @@ template <class L>
 
 template <class L>
 void linearise(const RefineTerms& terms, RefineSums& out) {
-  alignas(32) float lanes[refine_sums][pose_lanes];
-  for (int lane = 0; lane < pose_lanes; lane += L::lanes) {
+  alignas(32) float lanes[refine_sums][sample_lanes];
+  for (int lane = 0; lane < sample_lanes; lane += L::lanes) {
     LaneSums<L> sums;
     for (auto& sum : sums.sum) sum = all<L>(0.0F);
-    for (int i = lane; i < terms.samples.count; i += pose_lanes) add_samples<L>(terms, i, sums);
+    for (int i = lane; i < terms.samples.count; i += sample_lanes) add_samples<L>(terms, i, sums);
     for (int k = 0; k < refine_sums; ++k) store(lanes[k] + lane, sums.sum[k]);
   }
   float total[refine_sums];

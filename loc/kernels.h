@@ -12,15 +12,16 @@
 
 namespace touchline {
 
-inline constexpr int pose_lanes = 8;  // poses or samples that are looked at together
+inline constexpr int pose_lanes = 16;   // poses that are looked at together
+inline constexpr int sample_lanes = 8;  // line samples, likewise; their sums are made in this order
 
-/// Up to eight poses; theta in radians, with its sine and cosine.
+/// Up to sixteen poses; theta in radians, with its sine and cosine.
 struct PoseBlock {
-  alignas(32) float x[pose_lanes] = {};
-  alignas(32) float y[pose_lanes] = {};
-  alignas(32) float theta[pose_lanes] = {};
-  alignas(32) float sin[pose_lanes] = {};
-  alignas(32) float cos[pose_lanes] = {};
+  alignas(64) float x[pose_lanes] = {};
+  float y[pose_lanes] = {};
+  float theta[pose_lanes] = {};
+  float sin[pose_lanes] = {};
+  float cos[pose_lanes] = {};
   int count = 0;
 
   void push_back(const Pose2& pose);  // count < pose_lanes
@@ -103,12 +104,12 @@ inline constexpr int noise_words = 3 * noise_block;  // random words that it tak
 
 struct LocKernels {
   const char* name = nullptr;
-  /// Nats >= 0, of each pose; `costs` has room for eight.
+  /// Nats >= 0, of each pose; `costs` has room for sixteen.
   void (*line_costs)(const LineTerms& terms, const PoseBlock& poses, float* costs) = nullptr;
   void (*landmark_costs)(LandmarkTerms& terms, const PoseBlock& poses, float* costs) = nullptr;
   /// Samples 0, 8, 16 ... are summed, then 1, 9, 17 ..., and so on; then the eight sums in pairs.
   void (*linearise)(const RefineTerms& terms, RefineSums& sums) = nullptr;
-  /// math::sin_cos() of eight finite angles, up to 1e4 either way.
+  /// math::sin_cos() of sixteen finite angles, up to 1e4 either way.
   void (*sin_cos)(const float* angles, float* sin, float* cos) = nullptr;
   void (*normals)(const std::uint32_t* words, Noise& noise) = nullptr;
 };
@@ -120,5 +121,7 @@ struct LocKernels {
 /// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
 /// instructions (platform/processor).
 [[nodiscard]] LocKernels avx2_loc_kernels();
+/// Likewise with AVX-512, of it F, BW, DQ, VL, VBMI and VNNI.
+[[nodiscard]] LocKernels avx512_loc_kernels();
 
 }  // namespace touchline

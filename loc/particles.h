@@ -41,7 +41,7 @@ struct ParticleStorage {
   }
 };
 
-/// Up to eight of them from `first` on.
+/// Up to sixteen of them from `first` on.
 void take_poses(const ParticleView& particles, int first, const LocKernels& kernels, PoseBlock& block);
 
 /// Subtracts the largest log weight, so that the best particle has 0; returns what was subtracted. Weights that are not

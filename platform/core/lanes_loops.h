@@ -134,6 +134,9 @@ template <class L>
 [[gnu::always_inline]] inline Sixteen::I word_at(const std::uint8_t* from, Sixteen::I at) {
   return reinterpret_cast<Sixteen::I>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(at), from, 1));
 }
+[[gnu::always_inline]] inline Sixteen::F byte_at(const std::uint8_t* from, Sixteen::I at) {
+  return as_float(word_at(from, at) & 255);
+}
 [[gnu::always_inline]] inline Sixteen::F float_at(const float* from, Sixteen::I at) {
   return reinterpret_cast<Sixteen::F>(_mm512_i32gather_ps(reinterpret_cast<__m512i>(at), from, 4));
 }

@@ -37,10 +37,20 @@ inline Kernels fastest_kernels() {
   return portable_kernels();
 }
 
-inline LocKernels fastest_loc_kernels() {
+inline LocKernels loc_kernel_table(int i) {
+  if (i == 0) return portable_loc_kernels();
 #if defined(__x86_64__)
-  if (runs_avx2() && avx2_loc_kernels().name != nullptr) return avx2_loc_kernels();
+  if (i == 1 && runs_avx2()) return avx2_loc_kernels();
+  if (i == 2 && runs_avx512()) return avx512_loc_kernels();
 #endif
+  return {};
+}
+
+inline LocKernels fastest_loc_kernels() {
+  for (int i = kernel_tables - 1; i > 0; --i) {
+    const LocKernels kernels = loc_kernel_table(i);
+    if (kernels.name != nullptr) return kernels;
+  }
   return portable_loc_kernels();
 }
 

@@ -26,7 +26,13 @@ namespace {
 
 bool same_bits(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
 
-std::vector<LocKernels> vector_tables() { return {portable_loc_kernels(), fastest_loc_kernels()}; }
+std::vector<LocKernels> vector_tables() {
+  std::vector<LocKernels> tables;
+  for (int i = 0; i < kernel_tables; ++i) {
+    if (loc_kernel_table(i).name != nullptr) tables.push_back(loc_kernel_table(i));
+  }
+  return tables;
+}
 
 struct Fixture {
   Field field;
@@ -275,7 +281,7 @@ TEST_CASE("a linearisation is that of the exact nearest lines") {
 TEST_CASE("sines and cosines are those of math::sin_cos with every table") {
   Rng rng(11);
   for (int i = 0; i < 2000; ++i) {
-    alignas(32) float angles[pose_lanes], sine[pose_lanes], cosine[pose_lanes];
+    alignas(64) float angles[pose_lanes], sine[pose_lanes], cosine[pose_lanes];
     const float reach = i % 2 == 0 ? math::pi : 1.0e4F;
     for (float& angle : angles) angle = rng.uniform(-reach, reach);
     if (i == 0) std::copy_n(std::begin({0.0F, -0.0F, math::pi, -math::half_pi, 1e-20F, 1e4F}), 6, angles);
