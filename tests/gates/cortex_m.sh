@@ -23,10 +23,7 @@ loudly cmake --build "$folder" --target playback
 elf=$folder/platform/cortex_m/playback.elf
 
 # The link has no C library start-up and no system calls; this says it in names.
-if arm-none-eabi-nm "$elf" | grep -wE 'malloc|_malloc_r|free|calloc|realloc|_sbrk|_Znwj|_Znaj|__cxa_throw'; then
-  echo "cortex_m: the program contains an allocator or exceptions"
-  exit 1
-fi
+bash tests/gates/no_allocator.sh arm-none-eabi-nm "$elf" reset_handler || exit 1
 "$host/playback" >"$folder.host.txt"
 mapfile -t qemu < <(cmake -DBOARD="$board" -P platform/cortex_m/qemu.cmake 2>&1)
 timeout 300 "${qemu[@]}" -kernel "$elf" </dev/null >"$folder.board.txt" || {
