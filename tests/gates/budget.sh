@@ -2,14 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 # Holds figures that do not depend on the machine within 5 % of those in budget.txt beside this script. Costlier than that
 # fails; so does cheaper, as a budget that is never taken back holds nothing.
-#   budget.sh --check|--write PREFIX FIGURES     FIGURES: lines "PREFIX.name value"
+#   budget.sh --check|--write PREFIX FIGURES [BUDGET]     FIGURES: lines "PREFIX.name value"; BUDGET: in place of budget.txt
 set -euo pipefail
-[ $# -eq 3 ] && { [ "$1" = --check ] || [ "$1" = --write ]; } || { echo "usage: $0 --check|--write PREFIX FIGURES" >&2; exit 2; }
-mode=$1
+mode=${1:-}
+if [ $# -lt 3 ] || [ $# -gt 4 ] || { [ "$mode" != --check ] && [ "$mode" != --write ]; }; then
+  echo "usage: $0 --check|--write PREFIX FIGURES [BUDGET]" >&2
+  exit 2
+fi
 prefix=$2
 figures=$3
-budget=$(dirname "$0")/budget.txt
+budget=${4:-$(dirname "$0")/budget.txt}
 [ -s "$figures" ] || { echo "budget: $figures has no figures" >&2; exit 2; }
+for file in "$figures" "$budget"; do
+  awk '/^#/ { next }
+    NF != 2 || $2 !~ /^[1-9][0-9]*$/ { printf "budget: %s:%d: \"%s\" is not a name and a whole number above 0\n", FILENAME, FNR, $0; bad = 1 }
+    $1 in seen { printf "budget: %s:%d: %s stands there twice\n", FILENAME, FNR, $1; bad = 1 }
+    { seen[$1] = 1 }
+    END { exit bad }' "$file" || exit 2
+done
+foreign=$(awk -v p="$prefix." 'index($1, p) != 1 {print $1}' "$figures")
+[ -z "$foreign" ] || { echo "budget: $figures has figures of others than $prefix: $foreign" >&2; exit 2; }
 
 if [ "$mode" = --write ]; then
   { grep '^#' "$budget"; { awk -v p="$prefix." '!/^#/ && index($1, p) != 1' "$budget"; cat "$figures"; } | sort; } >"$budget.new"
@@ -17,7 +29,7 @@ if [ "$mode" = --write ]; then
   exit 0
 fi
 awk -v p="$prefix." '
-  /^#/ || NF != 2 { next }
+  /^#/ { next }
   FNR == NR { if (index($1, p) == 1) allowed[$1] = $2; next }
   { found[$1] = $2 }
   END {

@@ -13,6 +13,7 @@ folder=$3
 figures=$4
 shift 4
 log=$folder.log
+rm -f "$figures"  # those of another run are not this one's
 loudly() { "$@" >"$log" 2>&1 || { cat "$log"; exit 1; }; }
 
 mkdir -p "$(dirname "$log")"
@@ -26,8 +27,20 @@ elf=$folder/platform/cortex_m/playback.elf
 bash tests/gates/no_allocator.sh arm-none-eabi-nm "$elf" reset_handler || exit 1
 "$host/playback" >"$folder.host.txt"
 mapfile -t qemu < <(cmake -DBOARD="$board" -P platform/cortex_m/qemu.cmake 2>&1)
-timeout 300 "${qemu[@]}" -kernel "$elf" </dev/null >"$folder.board.txt" || {
-  echo "cortex_m: $board ended with status $?"; tail -5 "$folder.board.txt"; exit 1; }
+status=0
+timeout 300 "${qemu[@]}" -kernel "$elf" </dev/null >"$folder.board.txt" 2>"$folder.qemu.txt" || status=$?
+if [ $status -ne 0 ]; then
+  case $status in
+    97) why="a fault; the program says which" ;;  # fault_status of startup.cpp
+    124) why="not at its end after 300 s: does it wait for something that this machine has not?" ;;
+    134) why="QEMU stopped: a fault where none can be told; do vector table, stack and memories of boards/$board.ld fit the machine?" ;;
+    *) why="what it and QEMU said last" ;;
+  esac
+  echo "cortex_m: $board ended with status $status: $why"
+  tail -5 "$folder.board.txt"
+  head -3 "$folder.qemu.txt"
+  exit 1
+fi
 grep '^frame ' "$folder.host.txt" >"$folder.host.frames"
 grep '^frame ' "$folder.board.txt" >"$folder.board.frames"
 if ! diff "$folder.host.frames" "$folder.board.frames" >"$folder.diff"; then
@@ -41,6 +54,7 @@ section() { arm-none-eabi-size -A "$elf" | awk -v name="$1" '$1 == name {print $
   echo "$board.flash_bytes $(($(section .text) + $(section .ARM.exidx) + $(section .data)))"
   echo "$board.static_ram_bytes $(($(section .data) + $(section .bss)))"
   sed -nE "s/^(state_bytes|stack_bytes|instructions_median|instructions_worst) /$board.\1 /p" "$folder.board.txt"
-} >"$figures"
+} >"$figures.new"
+mv "$figures.new" "$figures"
 echo "$board: $(wc -l <"$folder.host.frames") lines equal to the host's: $(grep -c ' pose ' "$folder.host.frames") frames from pixels to pose"
 awk '{printf "  %-36s %12d\n", $1, $2}' "$figures"
