@@ -73,10 +73,20 @@ extern "C" [[gnu::used]] void run_after_reset() {
   touchline::board::leave(run_program());
 }
 
-extern "C" void fault_handler() {
+extern "C" __attribute__((noreturn)) void report_fault(const std::uint32_t* stack_pointer);
+
+// Nobody goes back from here, and the fault may be that the stack is at its end: its memory is used anew.
+extern "C" __attribute__((naked)) void fault_handler() {
+  asm volatile("mov r0, sp\n ldr r1, =stack_top\n mov sp, r1\n b report_fault");
+}
+
+extern "C" [[gnu::used]] void report_fault(const std::uint32_t* stack_pointer) {
+  using touchline::board::print;
   using touchline::board::Text;
-  touchline::board::print(
+  print(
       Text().add("fault: CFSR ").add_hex(reg(0xE000ED28U)).add(", BFAR ").add_hex(reg(0xE000ED38U)).add("\n").c_str());
+  if (stack_pointer < stack_bottom)
+    print("the stack ran over its end: raise stack_bytes in the board's linker script\n");
   touchline::board::leave(fault_status);
 }
 
