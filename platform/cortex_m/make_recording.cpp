@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns a data set into a source file and the pixels of its frames, for flash: the camera's PNGs become YUYV.
-//   make_recording DATA_SET FOLDER     writes FOLDER/recording.cpp and FOLDER/pixels.bin
+//   make_recording DATA_SET FOLDER [FRAMES]     writes FOLDER/recording.cpp and FOLDER/pixels.bin; 0 frames: all
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "platform/cortex_m/recording.h"
@@ -96,13 +99,18 @@ void write(const fs::path& path, const char* data, std::size_t size) {
     throw host::HostError(path.string() + ": cannot be written; is there room, and may you write there?");
 }
 
-void make_recording(const fs::path& data_set, const fs::path& folder) {
-  const host::DataSet set = host::read_dataset(data_set);
+void make_recording(const fs::path& data_set, const fs::path& folder, std::size_t frames) {
+  host::DataSet set = host::read_dataset(data_set);
   if (set.camera.width != board::frame_width || set.camera.height != board::frame_height) {
     throw host::HostError(data_set.string() +
                           ": [camera] width and height have to be 320 and 240 for a board; simulate it with "
                           "--camera fisheye-185-qvga");
   }
+  if (frames > set.frames.size()) {
+    throw host::HostError(data_set.string() + ": has " + std::to_string(set.frames.size()) + " frames, " +
+                          std::to_string(frames) + " are asked for");
+  }
+  if (frames != 0) set.frames.erase(set.frames.begin() + static_cast<std::ptrdiff_t>(frames), set.frames.end());
   std::vector<std::uint8_t> pixels;
   for (const host::DataFrame& frame : set.frames) append_yuyv(host::read_frame_image(frame), pixels);
   fs::create_directories(folder);
@@ -114,12 +122,15 @@ void make_recording(const fs::path& data_set, const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: make_recording DATA_SET FOLDER\n", stderr);
+  std::size_t frames = 0;
+  const std::string_view count = argc == 4 ? argv[3] : "0";
+  const auto [end, wrong] = std::from_chars(count.data(), count.data() + count.size(), frames);
+  if (argc < 3 || argc > 4 || wrong != std::errc{} || end != count.data() + count.size()) {
+    std::fputs("usage: make_recording DATA_SET FOLDER [FRAMES]     FRAMES: a whole number, 0 for all\n", stderr);
     return 2;
   }
   try {
-    make_recording(argv[1], argv[2]);
+    make_recording(argv[1], argv[2], frames);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "make_recording: %s\n", error.what());
     return 2;

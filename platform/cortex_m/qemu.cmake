@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The emulator's command for a board, one argument a line: the tests' emulator, and a script's with
+# The emulator's command for a board: of the target play, and one argument a line for a script, with
 #   cmake -DBOARD=mps2-an500 -P platform/cortex_m/qemu.cmake
 # shift=5: 32 ns pass for an instruction, whatever the machine is busy with; see boards/cmsdk_timer.cpp.
 set(qemu_command qemu-system-arm -M ${BOARD} -icount shift=5 -display none -monitor none -serial null
