@@ -59,11 +59,11 @@ bench:  ## make bench [DATA=folder]: times per stage beside OpenCV's; a table, a
 	@$(BUILD)/tests/bench/touchline_bench --json $(BUILD)/bench.json --first-pose $(BUILD)/tests/bench/first_pose \
 	  $(if $(DATA),--data "$(DATA)") $(BENCH_ARGUMENTS)
 
-profile:  ## instructions per stage and frame, by callgrind: a figure that repeats on noisy machines
+profile:  ## make profile [DATA=data set]: instructions per stage and frame, by callgrind: a figure that repeats on noisy machines
 	@bash $(NEED) build test backends profile
 	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) --parallel $(JOBS) --target profile_chain
-	@bash tests/bench/profile.sh $(BUILD)/tests/bench/profile_chain $(BUILD)
+	@bash tests/bench/profile.sh $(BUILD)/tests/bench/profile_chain $(BUILD) $(if $(DATA),"$(DATA)")
 
 budget: build  ## writes the budget of instructions and bytes anew, for changes of cost that are meant
 	@bash tests/gates/all.sh new_budget
