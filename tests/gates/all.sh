@@ -67,7 +67,7 @@ gate_accept() {
 gate_arm64() { bash tests/gates/cross.sh arm64 "$checks/arm64" "${launcher[@]}"; }
 gate_armhf() { bash tests/gates/cross.sh armhf "$checks/armhf" "${launcher[@]}"; }
 host_playback() { quietly "$checks/playback.log" cmake --build build --parallel "$jobs" --target playback; }
-boards=(mps2-an500 mps2-an386)  # that QEMU has
+boards=(mps2-an500 mps2-an386 mps2-an505)  # that QEMU has
 measure_boards() {
   local board
   host_playback || return 1
