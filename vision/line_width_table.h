@@ -9,6 +9,7 @@
 #pragma once
 
 #include "vision/image/image_view.h"
+#include "vision/image/kernels.h"
 #include "vision/image/line_width.h"
 #include "vision/lens/camera_pose.h"
 #include "vision/ray_grid.h"
@@ -22,6 +23,6 @@ using LineWidthView = ImageView<const LineWidth>;  // one entry per block of wid
 /// Fills `table` ((width / 8) x (height / 8) entries, rounded up) for a line of `line_width_m`, at the centre of each
 /// block.
 void make_line_width_table(const RayGridView& grid, const CameraPose& pose, float line_width_m,
-                           ImageView<LineWidth> table);
+                           ImageView<LineWidth> table, const Kernels& kernels = portable_kernels());
 
 }  // namespace touchline

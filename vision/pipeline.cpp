@@ -119,7 +119,7 @@ void Pipeline::find_green_stage(VisionResult& result) {
   const CameraPose& pose = result.projection.pose();
   const BitView& ground = views_.mask(MaskId::ground);
   make_ground_mask(views_.rays, pose, config_.max_range_m, views_.mask(MaskId::seen), ground);
-  make_line_width_table(views_.rays, pose, config_.line_width_m, views_.line_widths);
+  make_line_width_table(views_.rays, pose, config_.line_width_m, views_.line_widths, config_.kernels);
   result.line_widths = views_.line_widths;
   carpet_ = measure_carpet(result.mean, ground, config_.green, views_.mask(MaskId::green), config_.kernels);
   find_white(result.mean, ground, carpet_, views_.mask(MaskId::white), config_.kernels);

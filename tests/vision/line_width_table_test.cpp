@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table against lines that are projected into the image one by one.
 #include "vision/line_width_table.h"
+#include "tests/support/kernel_tables.h"
 #include "tests/support/paper_lens.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cstring>
 #include <memory>
 
 using namespace touchline;
@@ -16,11 +18,12 @@ constexpr int frame_width = 752, frame_height = 480, work_width = 320, work_heig
 using Table = Image<LineWidth, work_width / width_block_px, work_height / width_block_px>;
 
 template <int W, int H>
-void fill_table(const GroundProjection& projection, float line_width_m, ImageView<LineWidth> table) {
+void fill_table(const GroundProjection& projection, float line_width_m, ImageView<LineWidth> table,
+                const Kernels& kernels = portable_kernels()) {
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W) * ray_rows(H))> rays{};
   const RayGridView grid{rays, ray_columns(W), ray_rows(H)};
   make_ray_grid(projection.lens(), frame_width, frame_height, W, H, grid);
-  make_line_width_table(grid, projection.pose(), line_width_m, table);
+  make_line_width_table(grid, projection.pose(), line_width_m, table, kernels);
 }
 std::unique_ptr<Table> make_table(const GroundProjection& projection, float line_width_m) {
   auto table = std::make_unique<Table>();
@@ -125,4 +128,21 @@ TEST_CASE("a table whose size is no multiple of the block still covers the pictu
   fill_table<100, 60>(projection, 0.05F, table.view());
   CHECK(table.view().at(6, 7).across_row > 0);
   CHECK(table.view().at(11, 4).across_column > 0);
+}
+
+TEST_CASE("the table is the same with every table of kernels") {
+  for (const float pitch : {-20.0F, 3.0F, 30.0F, 80.0F}) {
+    for (const float roll : {0.0F, 0.4F, 3.0F}) {
+      const GroundProjection projection(test::paper_lens(), {0.0F, 0.0F, 0.58F, 0.1F, radians(pitch), roll});
+      const auto expected = make_table(projection, 0.05F);
+      for (const Kernels& kernels : test::all_tables()) {
+        CAPTURE(kernels.name);
+        CAPTURE(pitch);
+        auto table = std::make_unique<Table>();
+        fill_table<work_width, work_height>(projection, 0.05F, table->view(), kernels);
+        CHECK(std::memcmp(table->samples.data(), expected->samples.data(), sizeof(LineWidth) * table->samples.size()) ==
+              0);
+      }
+    }
+  }
 }

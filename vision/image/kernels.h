@@ -41,6 +41,8 @@ struct HalvedFrame {
 /// out = (a + b + c + d + 2) / 4 of four rows of samples.
 using MeanOfFour = void (*)(const std::uint8_t* const* rows, int width, std::uint8_t* out);
 
+struct BlockRow;
+
 struct Kernels {
   const char* name = nullptr;
   void (*halve_frame)(const HalvedFrame& frame) = nullptr;  // null: not offered
@@ -49,6 +51,7 @@ struct Kernels {
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
   bool (*join_squares)(BitView mask, bool dilate, int passes) = nullptr;  // null: not offered (morphology.h)
+  void (*block_widths)(const BlockRow& row) = nullptr;                    // null: not offered
   CarpetKernels carpet;
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered

@@ -4,6 +4,7 @@
 #include "vision/image/kernels.h"
 
 #if defined(__x86_64__) && defined(__AVX2__)
+#include "vision/image/block_widths_loops.h"
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
@@ -27,6 +28,7 @@ Kernels avx2_kernels() {
       .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
       .join_squares = nullptr,
+      .block_widths = block_widths::measure,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx2::window_moments,

@@ -13,6 +13,7 @@
 #include <immintrin.h>
 #pragma GCC diagnostic pop
 #endif
+#include "vision/image/block_widths_loops.h"
 #include "vision/image/carpet_rows_avx512.h"
 #include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
@@ -38,6 +39,7 @@ Kernels avx512_kernels() {
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
       .join_squares = squares_avx512::join_squares,
+      .block_widths = block_widths::measure,
       .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
       .window_moments = moments_avx512::window_moments,
