@@ -2,7 +2,6 @@
 #include "vision/green.h"
 
 #include <algorithm>
-#include <array>
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/hsv.h"
@@ -12,22 +11,12 @@ namespace {
 
 constexpr std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
 
-/// The counts of all sets.
-using Counts = std::array<std::int32_t, 256>;
-Counts whole(const Histogram& histogram) {
-  Counts counts{};
-  for (const auto& set : histogram.counts) {
-    for (std::size_t v = 0; v < counts.size(); ++v) counts[v] += set[v];
-  }
-  return counts;
-}
-
 /// The value below which `percent` of the samples lie.
-std::int32_t percentile(const Counts& counts, std::int32_t samples, std::int32_t percent) {
+std::int32_t percentile(const Histogram& histogram, std::int32_t samples, std::int32_t percent) {
   const std::int32_t rank = samples * percent / 100;
   std::int32_t below = 0;
   for (std::int32_t v = 0; v < 256; ++v) {
-    below += counts[static_cast<std::size_t>(v)];
+    below += histogram[v];
     if (below > rank) return v;
   }
   return 255;
@@ -44,11 +33,10 @@ void for_sample_rows(const ConstYuv420View& image, ConstBitView mask, ConstBitVi
 
 /// Narrows the hue to the flanks of the highest peak: where the count falls below 1/32 of it, two steps (4 degrees)
 /// more.
-void narrow_hue(const Counts& hues, HsvRange& range) {
+void narrow_hue(const Histogram& hues, HsvRange& range) {
   const auto smooth = [&hues](std::int32_t h) {
     std::int32_t sum = 0;
-    for (std::int32_t k = h - 1; k <= h + 1; ++k)
-      sum += hues[static_cast<std::size_t>(std::clamp<std::int32_t>(k, 0, 255))];
+    for (std::int32_t k = h - 1; k <= h + 1; ++k) sum += hues[std::clamp<std::int32_t>(k, 0, 255)];
     return sum;
   };
   std::int32_t peak = range.hue_low;
@@ -71,9 +59,9 @@ void measure_colour(const ConstYuv420View& image, ConstBitView ground, const Hsv
   for_sample_rows(image, ground, ground, [&](const CarpetRow& row) { kernels.count_colours(row, gate, colours); });
   carpet.samples = colours.samples;
   if (colours.samples == 0) return;
-  narrow_hue(whole(colours.hues), carpet.green);
+  narrow_hue(colours.hues, carpet.green);
   // Half of the median: a worn or glaring patch is still carpet, and white on it is less than half as saturated.
-  const std::int32_t half_median = percentile(whole(colours.saturations), colours.samples, 50) / 2;
+  const std::int32_t half_median = percentile(colours.saturations, colours.samples, 50) / 2;
   carpet.green.saturation_low = static_cast<std::uint8_t>(std::max<std::int32_t>(half_median, gate.saturation_low));
 }
 
@@ -95,9 +83,9 @@ void measure_ratios(const ConstYuv420View& image, ConstBitView ground, ConstBitV
   CarpetRatios ratios;
   const ChromaAxis axis{carpet.axis_cb, carpet.axis_cr};
   for_sample_rows(image, green, ground, [&](const CarpetRow& row) { kernels.count_ratios(row, axis, ratios); });
-  carpet.greenness_ratio = std::max<std::int32_t>(percentile(whole(ratios.greenness), sums.samples, 50), 1);
-  carpet.chroma_ratio = std::max<std::int32_t>(percentile(whole(ratios.chroma), sums.samples, 50), 1);
-  carpet.shadow_luma = percentile(whole(ratios.lumas), sums.samples, 5);
+  carpet.greenness_ratio = std::max<std::int32_t>(percentile(ratios.greenness, sums.samples, 50), 1);
+  carpet.chroma_ratio = std::max<std::int32_t>(percentile(ratios.chroma, sums.samples, 50), 1);
+  carpet.shadow_luma = percentile(ratios.lumas, sums.samples, 5);
   // Of Gaussian noise sigma the mean of |2 a - b - c| is sqrt(6) sigma sqrt(2 / pi) = 1.954 sigma; 16 / 1.954 = 8.19.
   carpet.noise =
       ratios.rough_samples == 0 ? 16 : std::max<std::int32_t>(ratios.roughness * 819 / (ratios.rough_samples * 100), 4);

@@ -4,10 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "vision/image/hsv_range.h"
-#include "vision/image/vector_registers.h"
 
 namespace touchline {
 
@@ -24,19 +22,12 @@ struct CarpetRow {
   int width = 0;
 };
 
-/// How often each number came. With vectors the samples come faster than one and the same counter can be written and
-/// read again, and neighbours are alike: they take turns with some sets of counters.
-struct Histogram {
-  static constexpr int sets = vector_registers ? 4 : 1;
-  /// Of a picture up to 1280 x 960, 76,800 samples: 19,200 a set.
-  using Count = std::conditional_t<vector_registers, std::uint16_t, std::int32_t>;
-  Count counts[sets][256] = {};
-};
+using Histogram = std::int32_t[256];
 
 /// Of the samples in the gate.
 struct CarpetColours {
-  Histogram hues;
-  Histogram saturations;
+  Histogram hues{};
+  Histogram saturations{};
   std::int32_t samples = 0;
 };
 
@@ -52,9 +43,9 @@ struct ChromaAxis {
 
 /// Ratios to luma, 2^-8, and luma itself.
 struct CarpetRatios {
-  Histogram greenness;  // of chroma along the axis
-  Histogram chroma;     // of |cb| + |cr|
-  Histogram lumas;
+  Histogram greenness{};  // of chroma along the axis
+  Histogram chroma{};     // of |cb| + |cr|
+  Histogram lumas{};
   std::int32_t roughness = 0;  // sum of |2 a - b - c| of a sample and its neighbours, each at most 32
   std::int32_t rough_samples = 0;
 };

@@ -121,7 +121,7 @@ class Picked {
     size_ += __builtin_popcount(mask);
   }
   [[gnu::always_inline]] void flush() {
-    for (int i = 0; i < size_; ++i) count_(values_[i], i % Histogram::sets);
+    for (int i = 0; i < size_; ++i) count_(values_[i]);
     size_ = 0;
   }
 
@@ -134,9 +134,9 @@ class Picked {
 
 inline void count_colours(const CarpetRow& row, const HsvRange& range, CarpetColours& colours) {
   const HsvRange gate = range;
-  Picked picked([&](std::uint32_t both, int set) __attribute__((always_inline)) {
-    ++colours.hues.counts[set][both & 255U];
-    ++colours.saturations.counts[set][both >> 8];
+  Picked picked([&](std::uint32_t both) __attribute__((always_inline)) {
+    ++colours.hues[both & 255U];
+    ++colours.saturations[both >> 8];
   });
   in_words(
       row, [&](const Samples& s) __attribute__((always_inline)) {
@@ -170,10 +170,10 @@ inline void count_ratios(const CarpetRow& row, const ChromaAxis& given, CarpetRa
   const __m512i zero = _mm512_setzero_si512();
   const __m512i axis = pairs(given.cb, given.cr);
   __m512i roughness = zero;
-  Picked picked([&](std::uint32_t three, int set) __attribute__((always_inline)) {
-    ++ratios.greenness.counts[set][three & 255U];
-    ++ratios.chroma.counts[set][three >> 8 & 255U];
-    ++ratios.lumas.counts[set][three >> 16];
+  Picked picked([&](std::uint32_t three) __attribute__((always_inline)) {
+    ++ratios.greenness[three & 255U];
+    ++ratios.chroma[three >> 8 & 255U];
+    ++ratios.lumas[three >> 16];
   });
   in_words(
       row, [&](const Samples& s) __attribute__((always_inline)) {

@@ -142,8 +142,8 @@ inline void count_colours(const CarpetRow& row, const HsvRange& range, CarpetCol
         for (std::uint64_t left = word.wanted; left != 0; left &= left - 1) {
           const int i = __builtin_ctzll(left) / 4;
           if (hues[i] == outside) continue;
-          ++colours.hues.counts[i % Histogram::sets][hues[i]];
-          ++colours.saturations.counts[i % Histogram::sets][saturations[i]];
+          ++colours.hues[hues[i]];
+          ++colours.saturations[saturations[i]];
           ++colours.samples;
         }
       });
@@ -193,9 +193,9 @@ inline void count_ratios(const CarpetRow& row, const ChromaAxis& given, CarpetRa
         for (std::uint64_t left = word.wanted; left != 0; left &= left - 1) {
           const int bit = __builtin_ctzll(left);
           const int i = bit / 4;
-          ++ratios.greenness.counts[i % Histogram::sets][greenness[i]];
-          ++ratios.chroma.counts[i % Histogram::sets][chroma[i]];
-          ++ratios.lumas.counts[i % Histogram::sets][s.luma(i)];
+          ++ratios.greenness[greenness[i]];
+          ++ratios.chroma[chroma[i]];
+          ++ratios.lumas[s.luma(i)];
           const auto inner = static_cast<std::int32_t>(word.inner >> bit & 1U);
           ratios.roughness += rough[i] & -inner;
           ratios.rough_samples += inner;

@@ -18,7 +18,6 @@ struct Sample {
   bool inner;                 // the pixels to the left and to the right are carpet's, too
 };
 
-inline int set_of(const Sample& s) { return s.x / 4 % Histogram::sets; }
 inline std::int32_t magnitude(std::int32_t v) { return v < 0 ? -v : v; }
 
 template <typename Visit>
@@ -37,8 +36,8 @@ inline void count_colours(const CarpetRow& row, const HsvRange& gate, CarpetColo
     const Hsv hsv = hsv_from_ycbcr(static_cast<std::uint8_t>(s.luma), static_cast<std::uint8_t>(s.cb + 128),
                                    static_cast<std::uint8_t>(s.cr + 128));
     if (!in_range(hsv, gate)) return;
-    ++colours.hues.counts[set_of(s)][hsv.hue];
-    ++colours.saturations.counts[set_of(s)][hsv.saturation];
+    ++colours.hues[hsv.hue];
+    ++colours.saturations[hsv.saturation];
     ++colours.samples;
   });
 }
@@ -56,9 +55,9 @@ inline void count_ratios(const CarpetRow& row, const ChromaAxis& axis, CarpetRat
     const std::int32_t luma = std::max<std::int32_t>(s.luma, 1);
     const std::int32_t along = s.cb * axis.cb + s.cr * axis.cr;  // 2^-8
     const std::int32_t chroma = (magnitude(s.cb) + magnitude(s.cr)) * 256;
-    ++ratios.greenness.counts[set_of(s)][std::clamp<std::int32_t>(along / luma, 0, 255)];
-    ++ratios.chroma.counts[set_of(s)][std::min<std::int32_t>(chroma / luma, 255)];
-    ++ratios.lumas.counts[set_of(s)][s.luma];
+    ++ratios.greenness[std::clamp<std::int32_t>(along / luma, 0, 255)];
+    ++ratios.chroma[std::min<std::int32_t>(chroma / luma, 255)];
+    ++ratios.lumas[s.luma];
     if (s.inner) {
       const std::uint8_t* y = row.y + s.x;
       ratios.roughness += std::min<std::int32_t>(magnitude(2 * y[0] - y[-1] - y[1]), 32);

@@ -321,8 +321,8 @@ CarpetOfRow carpet_by_definition(const CarpetRow& row, const HsvRange& gate, con
     const Hsv hsv = hsv_from_ycbcr(row.y[x], row.cb[x / 2], row.cr[x / 2]);
     if (in_range(hsv, gate)) {
       ++out.colours.samples;
-      ++out.colours.hues.counts[0][hsv.hue];
-      ++out.colours.saturations.counts[0][hsv.saturation];
+      ++out.colours.hues[hsv.hue];
+      ++out.colours.saturations[hsv.saturation];
     }
     const int cb = row.cb[x / 2] - 128;
     const int cr = row.cr[x / 2] - 128;
@@ -330,9 +330,9 @@ CarpetOfRow carpet_by_definition(const CarpetRow& row, const HsvRange& gate, con
     out.sums.cb += cb;
     out.sums.cr += cr;
     const int divisor = std::max(luma, 1);
-    ++out.ratios.greenness.counts[0][std::clamp((cb * axis.cb + cr * axis.cr) / divisor, 0, 255)];
-    ++out.ratios.chroma.counts[0][std::min((std::abs(cb) + std::abs(cr)) * 256 / divisor, 255)];
-    ++out.ratios.lumas.counts[0][luma];
+    ++out.ratios.greenness[std::clamp((cb * axis.cb + cr * axis.cr) / divisor, 0, 255)];
+    ++out.ratios.chroma[std::min((std::abs(cb) + std::abs(cr)) * 256 / divisor, 255)];
+    ++out.ratios.lumas[luma];
     if (x + 1 < row.width && is_set(row.around, x - 1) && is_set(row.around, x + 1)) {
       out.ratios.roughness += std::min(std::abs(2 * luma - row.y[x - 1] - row.y[x + 1]), 32);
       ++out.ratios.rough_samples;
@@ -341,17 +341,7 @@ CarpetOfRow carpet_by_definition(const CarpetRow& row, const HsvRange& gate, con
   return out;
 }
 
-bool same(const Histogram& a, const Histogram& b) {
-  const auto total = [](const Histogram& h, int v) {
-    std::int32_t sum = 0;
-    for (const auto& counts : h.counts) sum += counts[v];
-    return sum;
-  };
-  for (int v = 0; v < 256; ++v) {
-    if (total(a, v) != total(b, v)) return false;
-  }
-  return true;
-}
+bool same(const Histogram& a, const Histogram& b) { return std::equal(a, a + 256, b); }
 
 void check_carpet(const CarpetKernels& kernels, int width, const HsvRange& gate, std::uint64_t seed) {
   const auto samples = static_cast<std::size_t>(width);
