@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Canny by rolling rows: row y + 1 is blurred, then row y has its gradient, then row y - 1 its maxima.
+// Canny by rolling rows, for processors without vector registers: row y + 1 is blurred, then row y has its gradient,
+// then row y - 1 its maxima.
 #include "vision/image/canny.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ class RollingRows {
   [[nodiscard]] std::int16_t* gy(int y) const { return signed_row(11 + (y & 1)); }
 
  private:
-  [[nodiscard]] std::uint16_t* row(int i) const { return rows_.data() + i * stride_ + 1; }
+  [[nodiscard]] std::uint16_t* row(int i) const { return rows_.data() + i * stride_ + canny_row_margin; }
   /// Signed and unsigned types of one width may look at the same memory.
   [[nodiscard]] std::int16_t* signed_row(int i) const { return reinterpret_cast<std::int16_t*>(row(i)); }
   std::span<std::uint16_t> rows_;
@@ -44,32 +45,6 @@ void repeat_ends(T* row, int width) {
   row[-1] = row[0];
   row[width] = row[width - 1];
 }
-
-/// The loops over a row, for processors with vector registers; canny_words.h has those for others.
-class ByKernels {
- public:
-  explicit ByKernels(const EdgeKernels& kernels) : kernels_(kernels) {}
-  void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, EdgeColumns columns,
-                std::uint16_t* out) const {
-    kernels_.sum_rows(above, here, below, columns, out);
-  }
-  void sum_columns(const std::uint16_t* in, EdgeColumns columns, std::uint16_t* out) const {
-    kernels_.sum_columns(in, columns, out);
-  }
-  void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
-                    EdgeColumns columns, std::uint16_t* sums, std::int16_t* steps) const {
-    kernels_.sum_and_step(above, here, below, columns, sums, steps);
-  }
-  [[nodiscard]] BitWord slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) const {
-    return kernels_.slopes(s, columns, threshold);
-  }
-  [[nodiscard]] EdgeMaxima maxima(const EdgeNeighbours& rows, int x0, BitWord candidates, int threshold) const {
-    return kernels_.maxima(rows, x0, candidates, threshold);
-  }
-
- private:
-  const EdgeKernels& kernels_;
-};
 
 /// 1 when the magnitude at x is the largest along its gradient. Of two equal neighbours in a row of increasing
 /// gradient direction the first stays. Gradients have slope_bias.
@@ -180,14 +155,13 @@ EdgeColumns wider(EdgeColumns columns, int width) {
 }
 
 /// out = 3x3 binomial around row y, times 16.
-template <typename Loops>
-void blur_row(const Loops& loops, const ImageView<const std::uint8_t>& gray, int y, Blocks blocks,
-              std::uint16_t* vertical, std::uint16_t* out) {
+void blur_row(const ImageView<const std::uint8_t>& gray, int y, Blocks blocks, std::uint16_t* vertical,
+              std::uint16_t* out) {
   for_each_run(blocks, gray.width, [&](EdgeColumns columns) {
-    loops.sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
-                   wider(columns, gray.width), vertical);
+    ByWords::sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
+                      wider(columns, gray.width), vertical);
     repeat_ends(vertical, gray.width);
-    loops.sum_columns(vertical, columns, out);
+    ByWords::sum_columns(vertical, columns, out);
   });
 }
 
@@ -198,21 +172,20 @@ BitWord near_region(ConstBitView roi, int y, int i) {
     const BitWord* row = roi.row(v);
     near |= row[i];
     if (i > 0) near |= row[i - 1] >> (bits_per_word - 1);
-    if (i + 1 < words_for(roi.width)) near |= row[i + 1] & 1U;
+    if (i + 1 < words_for(roi.width)) near |= row[i + 1] << (bits_per_word - 1);
   }
   return near;
 }
 
 /// Sobel of row y and its magnitude, near the region. `candidates`: its pixels whose magnitude is at least `threshold`.
-template <typename Loops>
-void gradient_row(const Loops& loops, const RollingRows& rows, ConstBitView roi, int y, Blocks blocks, int threshold,
-                  BitView candidates) {
+void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks blocks, int threshold, BitView candidates) {
   if (blocks == 0) return;
   const int width = roi.width;
   const EdgeSlopes slopes = {rows.column_sums(), rows.column_steps(), rows.gx(y), rows.gy(y), rows.magnitude(y)};
   for_each_run(blocks, width, [&](EdgeColumns columns) {
-    loops.sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y), rows.blurred(std::min(y + 1, roi.height - 1)),
-                       wider(columns, width), rows.column_sums(), rows.column_steps());
+    ByWords::sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y),
+                          rows.blurred(std::min(y + 1, roi.height - 1)), wider(columns, width), rows.column_sums(),
+                          rows.column_steps());
   });
   repeat_ends(rows.column_sums(), width);
   repeat_ends(rows.column_steps(), width);
@@ -226,35 +199,30 @@ void gradient_row(const Loops& loops, const RollingRows& rows, ConstBitView roi,
     const int end = std::min(x0 + bits_per_word, width);
     const int half = std::min(x0 + block_px, width);
     BitWord bits = 0;
-    if (near << (block_px - 1) != 0) bits = loops.slopes(slopes, {x0, half}, threshold);
+    if (near << (block_px - 1) != 0) bits = ByWords::slopes(slopes, {x0, half}, threshold);
     if (near >> (block_px - 1) != 0 && half < end) {
-      bits |= loops.slopes(slopes, {half, end}, threshold) << block_px;
+      bits |= ByWords::slopes(slopes, {half, end}, threshold) << block_px;
     }
     candidates.row(y)[i] = roi.row(y)[i] & bits;
   }
 }
 
 /// Of the candidates of row y the weak and the strong maxima.
-template <typename Loops>
-void find_maxima(const Loops& loops, const RollingRows& rows, int y, int strong_threshold, BitView weak,
-                 BitView strong) {
+void find_maxima(const RollingRows& rows, int y, int strong_threshold, BitView weak, BitView strong) {
   const EdgeNeighbours neighbours = {
       rows.gx(y), rows.gy(y), rows.magnitude(y - 1), rows.magnitude(y), rows.magnitude(y + 1), weak.width};
   for (int i = 0; i < words_for(weak.width); ++i) {
     if (weak.row(y)[i] == 0) continue;
-    const EdgeMaxima found = loops.maxima(neighbours, i * bits_per_word, weak.row(y)[i], strong_threshold);
+    const EdgeMaxima found = ByWords::maxima(neighbours, i * bits_per_word, weak.row(y)[i], strong_threshold);
     weak.row(y)[i] = found.weak;
     strong.row(y)[i] = found.strong;
   }
 }
 
-/// Rows that the region reaches; none when last < first.
-struct Rows {
-  int first = 0;
-  int last = -1;
-};
-Rows rows_of(ConstBitView roi) {
-  Rows rows;
+}  // namespace
+
+RowRange reached_rows(ConstBitView roi) {
+  RowRange rows;
   const int words = words_for(roi.width);
   for (int y = 0; y < roi.height; ++y) {
     BitWord any = 0;
@@ -266,18 +234,17 @@ Rows rows_of(ConstBitView roi) {
   return rows;
 }
 
-template <typename Loops>
-GrowResult find_edges_by(const Loops& loops, const ImageView<const std::uint8_t>& gray, ConstBitView roi,
-                         const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
+GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
+                               const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
   assert(gray.width == roi.width && gray.height == roi.height && gray.width == edges.width);
   clear(weak);
   clear(edges);
-  const Rows reached = rows_of(roi);
+  const RowRange reached = reached_rows(roi);
   if (reached.last < reached.first) return {};
   const RollingRows rows(memory, gray.width);
   const int height = gray.height;
   NearBlocks near(roi, reached.first - 4);
-  const auto blur = [&](int y) { blur_row(loops, gray, y, near.at(y), rows.vertical(), rows.blurred(y)); };
+  const auto blur = [&](int y) { blur_row(gray, y, near.at(y), rows.vertical(), rows.blurred(y)); };
 
   // Gradients of one row more on either side, as far as there are such.
   const int first = std::max(reached.first - 1, 0);
@@ -286,32 +253,25 @@ GrowResult find_edges_by(const Loops& loops, const ImageView<const std::uint8_t>
   for (int y = first; y <= last + 1; ++y) {
     if (y + 1 < height) blur(y + 1);
     if (y < height) {
-      gradient_row(loops, rows, roi, y, near.at(y), thresholds.low * blur_scale, weak);
+      gradient_row(rows, roi, y, near.at(y), thresholds.low * blur_scale, weak);
     } else {
       std::fill_n(rows.magnitude(y), gray.width, std::uint16_t{0});  // beyond the image there is no edge
     }
     if (y - 1 >= reached.first && y - 1 <= reached.last) {
-      find_maxima(loops, rows, y - 1, thresholds.high * blur_scale, weak, edges);
+      find_maxima(rows, y - 1, thresholds.high * blur_scale, weak, edges);
     }
   }
   return grow_inside(edges, weak);
 }
 
-}  // namespace
-
 GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView roi, const CannyThresholds& thresholds,
                       CannyMemory memory, BitView weak, BitView edges, const Kernels& kernels) {
   if constexpr (vector_registers) {
     if (kernels.edges.maxima != nullptr) {
-      return find_edges_by(ByKernels(kernels.edges), gray, roi, thresholds, memory, weak, edges);
+      return find_edges_by_blocks(gray, roi, thresholds, memory, weak, edges, kernels.edges);
     }
   }
   return find_edges_by_words(gray, roi, thresholds, memory, weak, edges);
-}
-
-GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
-                               const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges) {
-  return find_edges_by(ByWords{}, gray, roi, thresholds, memory, weak, edges);
 }
 
 }  // namespace touchline

@@ -16,6 +16,7 @@
 #include "vision/image/grow.h"
 #include "vision/image/image_view.h"
 #include "vision/image/kernels.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 
@@ -30,8 +31,13 @@ struct CannyThresholds {
 struct CannyMemory {
   std::span<std::uint16_t> rows;
 };
-inline constexpr int canny_rows = 13;
-constexpr int canny_row_stride(int width) { return width + 2; }
+/// With vector registers rows are whole blocks wide, and there are more of them.
+inline constexpr int canny_rows = vector_registers ? 17 : 13;
+inline constexpr int canny_row_margin = vector_registers ? 32 : 1;
+constexpr int canny_row_stride(int width) {
+  return (vector_registers ? (width + edge_block_px - 1) / edge_block_px * edge_block_px : width) +
+         2 * canny_row_margin;
+}
 template <int W>
 struct CannyStorage {
   std::array<std::uint16_t, static_cast<std::size_t>(canny_rows* canny_row_stride(W))> rows{};
@@ -46,5 +52,17 @@ GrowResult find_edges(const ImageView<const std::uint8_t>& gray, ConstBitView ro
 /// The same by the loops of processors without vector registers, for the tests elsewhere.
 GrowResult find_edges_by_words(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
                                const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges);
+
+/// And by the loops of processors with such.
+GrowResult find_edges_by_blocks(const ImageView<const std::uint8_t>& gray, ConstBitView roi,
+                                const CannyThresholds& thresholds, CannyMemory memory, BitView weak, BitView edges,
+                                const EdgeKernels& kernels);
+
+/// Rows that a region reaches; none when last < first.
+struct RowRange {
+  int first = 0;
+  int last = -1;
+};
+RowRange reached_rows(ConstBitView roi);
 
 }  // namespace touchline

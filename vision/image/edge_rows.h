@@ -54,17 +54,28 @@ struct EdgeDirections {
   std::uint64_t below = 0;
 };
 
+/// Columns that are looked at together. Rows of 16-bit samples have room for whole blocks.
+inline constexpr int edge_block_px = 32;
+
+/// What the gradient of a row is made of, five rows each with its own in the middle, and what it goes to.
+struct EdgeGradients {
+  const std::int16_t* steps[5] = {};
+  const std::int16_t* sums[5] = {};
+  std::int16_t* gx = nullptr;
+  std::int16_t* gy = nullptr;
+  std::uint16_t* magnitude = nullptr;
+  int width = 0;
+};
+
 struct EdgeKernels {
-  /// out = above + 2 here + below.
-  void (*sum_rows)(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, EdgeColumns columns,
-                   std::uint16_t* out) = nullptr;
-  /// out[x] = in[x - 1] + 2 in[x] + in[x + 1].
-  void (*sum_columns)(const std::uint16_t* in, EdgeColumns columns, std::uint16_t* out) = nullptr;
-  /// sums = above + 2 here + below, steps = below - above.
-  void (*sum_and_step)(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
-                       EdgeColumns columns, std::uint16_t* sums, std::int16_t* steps) = nullptr;
-  /// Gradients and magnitudes of up to 64 columns; bit x - first where the magnitude is at least `threshold`.
-  std::uint64_t (*slopes)(const EdgeSlopes& slopes, EdgeColumns columns, int threshold) = nullptr;
+  /// Of the blocks of a row of luma: steps = (-1 -2 0 2 1), sums = (1 4 6 4 1) along the row. Beyond its ends its
+  /// samples come again in reverse.
+  void (*smooth)(const std::uint8_t* luma, int width, std::uint64_t blocks, std::int16_t* steps,
+                 std::int16_t* sums) = nullptr;
+  /// Gradients and magnitudes of a block: gx = (1 4 6 4 1) down the steps, gy = (-1 -2 0 2 1) down the sums. Bit i:
+  /// column x0 + i has at least `threshold`; bits beyond the width mean nothing. The magnitude behind the last column
+  /// is zero.
+  std::uint32_t (*gradients)(const EdgeGradients& rows, int x0, int threshold) = nullptr;
   /// Of the candidates, bit i for column x0 + i, those whose magnitude is the largest along their gradient; strong:
   /// and at least `threshold`.
   EdgeMaxima (*maxima)(const EdgeNeighbours& rows, int x0, std::uint64_t candidates, int threshold) = nullptr;

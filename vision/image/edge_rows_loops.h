@@ -13,7 +13,9 @@ namespace touchline {
 namespace {
 namespace edge_rows {
 
-#if defined(__AVX2__)
+#if defined(__AVX512BW__)
+inline constexpr int lanes = 32;
+#elif defined(__AVX2__)
 inline constexpr int lanes = 16;
 #else
 inline constexpr int lanes = 8;
@@ -31,7 +33,9 @@ template <typename T>
   return v;
 }
 [[gnu::always_inline]] inline I16 load_bytes(const std::uint8_t* from) {
-#if defined(__AVX2__)
+#if defined(__AVX512BW__)
+  return reinterpret_cast<I16>(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
+#elif defined(__AVX2__)
   return reinterpret_cast<I16>(_mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
 #elif defined(__SSE2__)
   const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
@@ -48,57 +52,6 @@ template <typename T>
   __builtin_memcpy(to, &v, sizeof v);
 }
 
-/// Calls visit(x) for each vector of a range of columns. The last one reaches back over those that are done: every
-/// visit reads other rows than it writes. False when the range is shorter than a vector.
-template <typename Visit>
-[[gnu::always_inline]] inline bool for_each_vector(EdgeColumns columns, Visit visit) {
-  if (columns.end - columns.first < lanes) return false;
-  int x = columns.first;
-  for (; x + lanes <= columns.end; x += lanes) visit(x);
-  if (x < columns.end) visit(columns.end - lanes);
-  return true;
-}
-
-inline void sum_rows(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
-                     EdgeColumns columns, std::uint16_t* out) {
-  if (for_each_vector(columns, [&](int x) {
-        const I16 middle = load_bytes(here + x);
-        store(load_bytes(above + x) + middle + middle + load_bytes(below + x), out + x);
-      })) {
-    return;
-  }
-  for (int x = columns.first; x < columns.end; ++x)
-    out[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-}
-
-inline void sum_columns(const std::uint16_t* in, EdgeColumns columns, std::uint16_t* out) {
-  if (for_each_vector(columns, [&](int x) {
-        const I16 middle = load(in + x);
-        store(load(in + x - 1) + middle + middle + load(in + x + 1), out + x);
-      })) {
-    return;
-  }
-  for (int x = columns.first; x < columns.end; ++x)
-    out[x] = static_cast<std::uint16_t>(in[x - 1] + 2 * in[x] + in[x + 1]);
-}
-
-inline void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
-                         EdgeColumns columns, std::uint16_t* sums, std::int16_t* steps) {
-  if (for_each_vector(columns, [&](int x) {
-        const I16 a = load(above + x);
-        const I16 h = load(here + x);
-        const I16 b = load(below + x);
-        store(a + h + h + b, sums + x);
-        store(b - a, steps + x);
-      })) {
-    return;
-  }
-  for (int x = columns.first; x < columns.end; ++x) {
-    sums[x] = static_cast<std::uint16_t>(above[x] + 2 * here[x] + below[x]);
-    steps[x] = static_cast<std::int16_t>(below[x] - above[x]);
-  }
-}
-
 [[gnu::always_inline]] inline I16 larger(I16 a, I16 b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline I16 smaller(I16 a, I16 b) { return a < b ? a : b; }
 [[gnu::always_inline]] inline I16 absolute(I16 v) { return larger(v, -v); }
@@ -106,7 +59,9 @@ inline void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, 
 
 /// A bit a lane of a mask, whose lanes are all ones or zero.
 [[gnu::always_inline]] inline std::uint32_t bits_of(I16 mask) {
-#if defined(__AVX2__)
+#if defined(__AVX512BW__)
+  return _mm512_movepi16_mask(reinterpret_cast<__m512i>(mask));
+#elif defined(__AVX2__)
   const __m256i v = reinterpret_cast<__m256i>(mask);
   const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
   return static_cast<std::uint32_t>(_mm_movemask_epi8(bytes));
@@ -123,40 +78,70 @@ inline void sum_and_step(const std::uint16_t* above, const std::uint16_t* here, 
 
 [[gnu::always_inline]] inline int absolute(int v) { return v < 0 ? -v : v; }
 
-inline std::uint64_t slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) {
-  std::uint64_t bits = 0;
+/// The row from x0 - 2 on, as it is or a copy where it ends within the block.
+inline constexpr int padded_px = edge_block_px + 4;
+[[gnu::always_inline]] inline const std::uint8_t* padded(const std::uint8_t* luma, int width, int x0,
+                                                         std::uint8_t (&copy)[padded_px]) {
+  constexpr int inner_px = padded_px - 2;
+  if (x0 >= 2 && x0 + edge_block_px + 2 <= width) return luma + x0 - 2;
+  if (x0 == 0 && width >= inner_px) {
+    copy[0] = luma[1];
+    copy[1] = luma[0];
+    __builtin_memcpy(copy + 2, luma, inner_px);
+  } else if (x0 >= 2 && x0 + edge_block_px == width) {
+    __builtin_memcpy(copy, luma + x0 - 2, inner_px);
+    copy[inner_px] = luma[width - 1];
+    copy[inner_px + 1] = luma[width - 2];
+  } else {
+    for (int i = 0; i < padded_px; ++i) {
+      const int x = x0 - 2 + i;
+      const int inside = x < 0 ? -1 - x : x >= width ? 2 * width - 1 - x : x;
+      copy[i] = luma[inside < 0 ? 0 : inside >= width ? width - 1 : inside];
+    }
+  }
+  return copy;
+}
+
+inline void smooth(const std::uint8_t* luma, int width, std::uint64_t blocks, std::int16_t* steps, std::int16_t* sums) {
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const int x0 = __builtin_ctzll(blocks) * edge_block_px;
+    std::uint8_t copy[padded_px];
+    const std::uint8_t* from = padded(luma, width, x0, copy);
+    for (int i = 0; i < edge_block_px; i += lanes) {
+      const I16 a = load_bytes(from + i), b = load_bytes(from + i + 1), c = load_bytes(from + i + 2);
+      const I16 d = load_bytes(from + i + 3), e = load_bytes(from + i + 4);
+      const I16 step = d - b;
+      store(e - a + step + step, steps + x0 + i);
+      store(a + e + ((b + d + c) << 2) + c + c, sums + x0 + i);
+    }
+  }
+}
+
+inline std::uint32_t gradients(const EdgeGradients& rows, int x0, int threshold) {
+  std::uint32_t bits = 0;
   const I16 bar = all(threshold - 1);
-  int x = columns.first;
-  for (; x + lanes <= columns.end; x += lanes) {
-    const I16 dx = load(s.sums + x + 1) - load(s.sums + x - 1);
-    const I16 middle = load(s.steps + x);
-    const I16 dy = load(s.steps + x - 1) + middle + middle + load(s.steps + x + 1);
+  for (int i = 0; i < edge_block_px; i += lanes) {
+    const int x = x0 + i;
+    const I16 middle = load(rows.steps[2] + x);
+    const I16 inner = load(rows.steps[1] + x) + load(rows.steps[3] + x) + middle;
+    const I16 dx = load(rows.steps[0] + x) + load(rows.steps[4] + x) + (inner << 2) + middle + middle;
+    const I16 near = load(rows.sums[3] + x) - load(rows.sums[1] + x);
+    const I16 dy = load(rows.sums[4] + x) - load(rows.sums[0] + x) + near + near;
     const I16 ax = absolute(dx);
     const I16 ay = absolute(dy);
-    const I16 least = smaller(ax, ay);
-    const U16 three = reinterpret_cast<U16>(least) * 3;  // up to 48,960
+    const U16 three = reinterpret_cast<U16>(smaller(ax, ay)) * 3;  // up to 48,960
     const I16 magnitude = larger(ax, ay) + reinterpret_cast<I16>(three >> 3);
-    store(dx, s.gx + x);
-    store(dy, s.gy + x);
-    store(magnitude, s.magnitude + x);
-    bits |= std::uint64_t{bits_of(magnitude > bar)} << (x - columns.first);
+    store(dx, rows.gx + x);
+    store(dy, rows.gy + x);
+    store(magnitude, rows.magnitude + x);
+    bits |= bits_of(magnitude > bar) << i;
   }
-  for (; x < columns.end; ++x) {
-    const int dx = s.sums[x + 1] - s.sums[x - 1];
-    const int dy = s.steps[x - 1] + 2 * s.steps[x] + s.steps[x + 1];
-    const int ax = absolute(dx);
-    const int ay = absolute(dy);
-    const int magnitude = ax > ay ? ax + ay * 3 / 8 : ay + ax * 3 / 8;
-    s.gx[x] = static_cast<std::int16_t>(dx);
-    s.gy[x] = static_cast<std::int16_t>(dy);
-    s.magnitude[x] = static_cast<std::uint16_t>(magnitude);
-    bits |= std::uint64_t{magnitude >= threshold ? 1U : 0U} << (x - columns.first);
-  }
+  if (x0 + edge_block_px > rows.width) rows.magnitude[rows.width] = 0;
   return bits;
 }
 
 [[gnu::always_inline]] inline I16 pick(I16 mask, I16 yes, I16 no) {
-#if defined(__AVX2__)
+#if defined(__AVX2__) && !defined(__AVX512BW__)
   return reinterpret_cast<I16>(_mm256_blendv_epi8(reinterpret_cast<__m256i>(no), reinterpret_cast<__m256i>(yes),
                                                   reinterpret_cast<__m256i>(mask)));
 #else
@@ -166,7 +151,16 @@ inline std::uint64_t slopes(const EdgeSlopes& s, EdgeColumns columns, int thresh
 
 /// Lanes where a * u + b * v, exactly, is more than `bar`, whose lanes are 0 or -1. |a|, |b| < 2^15, the sum < 2^31.
 [[gnu::always_inline]] inline I16 product_exceeds(I16 a, I16 b, I16 u, I16 v, I16 bar) {
-#if defined(__AVX2__)
+#if defined(__AVX512BW__)
+  const __m512i x = reinterpret_cast<__m512i>(a), y = reinterpret_cast<__m512i>(b);
+  const __m512i p = reinterpret_cast<__m512i>(u), q = reinterpret_cast<__m512i>(v);
+  const __m512i t = reinterpret_cast<__m512i>(bar);
+  const __mmask16 low = _mm512_cmpgt_epi32_mask(
+      _mm512_madd_epi16(_mm512_unpacklo_epi16(x, y), _mm512_unpacklo_epi16(p, q)), _mm512_unpacklo_epi16(t, t));
+  const __mmask16 high = _mm512_cmpgt_epi32_mask(
+      _mm512_madd_epi16(_mm512_unpackhi_epi16(x, y), _mm512_unpackhi_epi16(p, q)), _mm512_unpackhi_epi16(t, t));
+  return reinterpret_cast<I16>(_mm512_packs_epi32(_mm512_movm_epi32(low), _mm512_movm_epi32(high)));
+#elif defined(__AVX2__)
   const __m256i x = reinterpret_cast<__m256i>(a), y = reinterpret_cast<__m256i>(b);
   const __m256i p = reinterpret_cast<__m256i>(u), q = reinterpret_cast<__m256i>(v);
   const __m256i t = reinterpret_cast<__m256i>(bar);
@@ -298,7 +292,7 @@ inline EdgeDirections directions(const EdgeLuma& luma, int x0, std::uint64_t wan
   return found;
 }
 
-inline EdgeKernels kernels() { return {sum_rows, sum_columns, sum_and_step, slopes, maxima, directions}; }
+inline EdgeKernels kernels() { return {smooth, gradients, maxima, directions}; }
 
 }  // namespace edge_rows
 }  // namespace

@@ -137,6 +137,15 @@ TEST_CASE("edges are those of the plain implementation: every size, hills and no
   }
 }
 
+TEST_CASE("a region's first and last column are compared with their neighbours outside it, wherever words begin") {
+  const Gray gray = hills(200, 40, 77, 200);
+  for (int first = 60; first <= 132; ++first) {
+    Bits roi(gray.width, gray.height);
+    for (int y = 5; y < 35; ++y) set_span(roi.view(), y, first, first + 3 + first % 5, true);
+    REQUIRE(ascii(edges_of(gray, roi, {20, 40})) == ascii(plain_edges(gray, roi, {20, 40})));
+  }
+}
+
 TEST_CASE("extremes of gray do not overflow") {
   std::mt19937 random(3);
   Gray gray(100, 60);
