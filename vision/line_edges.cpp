@@ -3,6 +3,7 @@
 // other side for the rest.
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 
 #include "vision/candidates.h"
 #include "vision/image/bit_ops.h"
@@ -49,18 +50,29 @@ BitWord any(const Steps& s) { return s.left | s.right | s.above | s.below; }
 BitWord every(const Steps& s) { return s.left & s.right & s.above & s.below; }
 Steps reversed(const Steps& s) { return {s.right, s.left, s.below, s.above}; }
 
-/// The pixels from which one of the next `reach` in a direction is set.
-Steps near_bits(ConstBitView mask, const Place& at, int reach) {
+/// The pixels from which one of the next Reach in a direction is set.
+template <int Reach>
+Steps near_bits(ConstBitView mask, const Place& at) {
   Steps near;
-  const BitWord* row = mask.row(at.y);
-  const BitWord here = row[at.word];
-  const BitWord before = at.word > 0 ? row[at.word - 1] : 0;
-  const BitWord after = at.word + 1 < words_for(mask.width) ? row[at.word + 1] : 0;
-  for (int k = 1; k <= reach; ++k) {
+  const BitWord* row = mask.row(at.y) + at.word;
+  const BitWord here = row[0];
+  const BitWord before = at.word > 0 ? row[-1] : 0;
+  const BitWord after = at.word + 1 < words_for(mask.width) ? row[1] : 0;
+  for (int k = 1; k <= Reach; ++k) {
     near.left |= here << k | before >> (bits_per_word - k);
     near.right |= here >> k | after << (bits_per_word - k);
-    if (at.y >= k) near.above |= mask.row(at.y - k)[at.word];
-    if (at.y + k < mask.height) near.below |= mask.row(at.y + k)[at.word];
+  }
+  const std::ptrdiff_t stride = mask.stride;
+  if (at.y >= Reach && at.y + Reach < mask.height) {
+    for (int k = 1; k <= Reach; ++k) {
+      near.above |= row[-k * stride];
+      near.below |= row[k * stride];
+    }
+    return near;
+  }
+  for (int k = 1; k <= Reach; ++k) {
+    if (at.y >= k) near.above |= row[-k * stride];
+    if (at.y + k < mask.height) near.below |= row[k * stride];
   }
   return near;
 }
@@ -195,8 +207,8 @@ struct EdgeCounts {
 };
 
 void add_edges_of_word(const EdgeInput& input, const Place& at, BitWord edges, BitView lines, EdgeCounts& counts) {
-  const Steps white = near_bits(input.white, at, side_reach);
-  const Steps green = near_bits(input.green, at, side_reach);
+  const Steps white = near_bits<side_reach>(input.white, at);
+  const Steps green = near_bits<side_reach>(input.green, at);
   // Most edges are the carpet's noise, and need no direction: without green anywhere, or without white and green on all
   // sides.
   const BitWord no_white = edges & ~any(white);
@@ -217,7 +229,7 @@ void add_edges_of_word(const EdgeInput& input, const Place& at, BitWord edges, B
   counts.taken += bits_set(taken);
   counts.of_wide += bits_set(before_white & ~taken);
   // What is added changes what the next ones see.
-  for_each_bit(taken & ~any(found & near_bits(lines, at, 2)), [&](int bit) {
+  for_each_bit(taken & ~any(found & near_bits<2>(lines, at)), [&](int bit) {
     const BitWord flag = BitWord{1} << bit;
     const int dx = (found.right & flag) != 0 ? 1 : (found.left & flag) != 0 ? -1 : 0;
     const int dy = (found.below & flag) != 0 ? 1 : (found.above & flag) != 0 ? -1 : 0;
