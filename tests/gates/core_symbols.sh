@@ -22,8 +22,9 @@ outside=$(awk 'NF >= 2 && $2 ~ /^[UwW]$/ && $3 == "" {print $1}' <<<"$symbols" |
 defined=$(awk 'NF >= 3 && $2 !~ /^[Uw]$/ {print $1}' <<<"$symbols" | sort -u)
 calls=$(comm -23 <(echo "$outside") <(echo "$defined") | grep -vE "$allowed" || true)
 
-# b, d, g, s: data that can be written; u: one per program.
-state=$(awk 'NF >= 3 && $2 ~ /^[bBdDgGsSu]$/ && $1 !~ /^DW\.ref\./ {print $1}' <<<"$symbols" | sort -u)
+# b, d, g, s: data that can be written; u: one per program. Arm's assemblers mark where data begins by the name $d; the
+# data has a name of its own.
+state=$(awk 'NF >= 3 && $2 ~ /^[bBdDgGsSu]$/ && $1 !~ /^(DW\.ref\.|\$d$)/ {print $1}' <<<"$symbols" | sort -u)
 startup=$(readelf --wide --sections "$@" 2>/dev/null | grep -oE '\.(init_array|ctors|fini_array|tbss|tdata)[.0-9]*' | sort -u || true)
 
 failed=0
