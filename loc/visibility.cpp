@@ -11,13 +11,17 @@ constexpr float spacing_m = 0.15F;
 constexpr int max_samples_per_line = 100;  // 14 m at 0.15 m
 constexpr int tolerance_px = 3;            // what the pose may be off in the picture (at 320 px width)
 
+/// Farther than this beyond the range nothing has to be looked at point by point: no rounding reaches so far.
+constexpr float slack_m = 0.01F;
+
 struct Look {
   const VisionResult& vision;
+  Pose2 pose;
   PoseView view;
   float max_range;
   int reach;
   Visibility out;
-  RayLanes waiting;  // points on the ground that have not been looked at
+  RayLanes waiting;  // points on the ground whose pixels are not known yet: they are found side by side
 
   /// Carpet all around: the sample and its neighbours at the tolerance are green.
   [[nodiscard]] bool green_around(int x, int y) const {
@@ -48,7 +52,18 @@ struct Look {
     waiting.count = 0;
   }
 
+  /// Does all between two corners, in each axis low to high, lie beyond the range?
+  [[nodiscard]] bool beyond(const FieldPoint& low, const FieldPoint& high) const {
+    const float x = pose.x - math::clamp(pose.x, low.x, high.x);
+    const float y = pose.y - math::clamp(pose.y, low.y, high.y);
+    return x * x + y * y > math::square(max_range + slack_m);
+  }
+
   void segment(const FieldLine& line) {
+    if (beyond({math::min(line.a.x, line.b.x), math::min(line.a.y, line.b.y)},
+               {math::max(line.a.x, line.b.x), math::max(line.a.y, line.b.y)})) {
+      return;
+    }
     const float dx = line.b.x - line.a.x;
     const float dy = line.b.y - line.a.y;
     const float length = math::abs(dx) + math::abs(dy);  // parallel to an axis
@@ -60,6 +75,7 @@ struct Look {
   }
 
   void circle(float radius) {
+    if (beyond({-radius, -radius}, {radius, radius})) return;
     const int n = static_cast<int>(math::two_pi * radius / spacing_m);
     for (int i = 0; i < n && i < max_samples_per_line; ++i) {
       const float a = math::two_pi * static_cast<float>(i) / static_cast<float>(n);
@@ -73,9 +89,13 @@ struct Look {
 
 Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
                             float max_range) {
-  Look look{vision,    PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
-            max_range, tolerance_px * vision.work_width / 320,
-            {},        {}};
+  Look look{vision,
+            refined.pose,
+            PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
+            max_range,
+            tolerance_px * vision.work_width / 320,
+            {},
+            {}};
   for (const FieldLine& line : field.lines()) look.segment(line);
   if (field.dimensions().circle_radius > 0.0F) look.circle(field.dimensions().circle_radius);
   look.look();
