@@ -82,6 +82,8 @@ const char* to_string(WorstKind kind) {
   switch (kind) {
     case WorstKind::white_noise: return "white noise";
     case WorstKind::checkerboard: return "checkerboard";
+    case WorstKind::turned_checkerboard: return "turned checkerboard";
+    case WorstKind::blocks: return "blocks";
     case WorstKind::noise_in_green: return "noise in green";
     case WorstKind::all_white: return "all white";
     case WorstKind::all_green: return "all green";
@@ -89,8 +91,27 @@ const char* to_string(WorstKind kind) {
   return "?";
 }
 
+namespace {
+
+/// Whether a pixel of a pattern without noise is white.
+bool is_white(WorstKind kind, int x, int y, std::uint64_t seed) {
+  constexpr int block_px = 12;
+  switch (kind) {
+    case WorstKind::all_white: return true;
+    // Four camera pixels a square, about two working ones: the finest pattern that the subsampling lets through.
+    case WorstKind::checkerboard: return (x / 5 + y / 4) % 2 == 0;
+    case WorstKind::turned_checkerboard: return (x / 4 + y / 5) % 2 == 0;
+    case WorstKind::blocks:
+      return Rng(seed * 1000003U + static_cast<std::uint64_t>(y / block_px * 1000 + x / block_px)).below(2) == 0;
+    default: return false;
+  }
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> worst_frame(WorstKind kind, int width, int height, std::uint64_t seed) {
   constexpr std::uint8_t green[3] = {40, 120, 60};
+  constexpr std::uint8_t white = 235;
   Rng rng(seed);
   std::vector<std::uint8_t> rgb(static_cast<std::size_t>(width * height * 3));
   for (int y = 0; y < height; ++y) {
@@ -98,14 +119,11 @@ std::vector<std::uint8_t> worst_frame(WorstKind kind, int width, int height, std
       std::uint8_t* pixel = &rgb[static_cast<std::size_t>((y * width + x) * 3)];
       const bool inside = x > width / 6 && x < width * 5 / 6 && y > height / 3 && y < height * 9 / 10;
       const bool noise = kind == WorstKind::white_noise || (kind == WorstKind::noise_in_green && inside);
-      // Four camera pixels a square, about two working ones: the finest pattern that the subsampling lets through.
-      const bool white = kind == WorstKind::all_white || (kind == WorstKind::checkerboard && (x / 5 + y / 4) % 2 == 0);
       const std::uint32_t bits = noise ? rng.next_u32() : 0;
+      const bool bright = noise ? (bits & 1U) != 0 : is_white(kind, x, y, seed);
       for (unsigned c = 0; c < 3; ++c) {
-        pixel[c] = white ? std::uint8_t{235} : green[c];
-        if (noise)
-          pixel[c] = static_cast<std::uint8_t>(kind == WorstKind::white_noise ? bits >> (8 * c)
-                                                                              : ((bits & 1U) != 0 ? 235 : green[c]));
+        pixel[c] = bright ? white : green[c];
+        if (kind == WorstKind::white_noise) pixel[c] = static_cast<std::uint8_t>(bits >> (8 * c));
       }
     }
   }

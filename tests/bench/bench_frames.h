@@ -44,9 +44,19 @@ FramePool simulated_frames(int views = 0);
 /// The pictures of a data set, repeated until 64 MB are full. Throws HostError.
 FramePool recorded_frames(const std::string& folder);
 
-enum class WorstKind : std::uint8_t { white_noise, checkerboard, noise_in_green, all_white, all_green };
-inline constexpr WorstKind worst_kinds[] = {WorstKind::white_noise, WorstKind::checkerboard, WorstKind::noise_in_green,
-                                            WorstKind::all_white, WorstKind::all_green};
+enum class WorstKind : std::uint8_t {
+  white_noise,
+  checkerboard,
+  turned_checkerboard,  // its squares are as high as the other's are wide
+  blocks,               // squares of carpet and white by chance: each edge is a line, each corner a junction
+  noise_in_green,
+  all_white,
+  all_green
+};
+inline constexpr WorstKind worst_kinds[] = {
+    WorstKind::white_noise, WorstKind::checkerboard,   WorstKind::turned_checkerboard,
+    WorstKind::blocks,      WorstKind::noise_in_green, WorstKind::all_white,
+    WorstKind::all_green};
 const char* to_string(WorstKind kind);
 /// RGB24 of the given size.
 std::vector<std::uint8_t> worst_frame(WorstKind kind, int width, int height, std::uint64_t seed);

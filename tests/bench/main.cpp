@@ -5,13 +5,17 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "platform/processor/fastest_kernels.h"
 #include "tests/bench/paired.h"
 #include "tests/bench/scaling.h"
 
@@ -26,6 +30,14 @@ struct Options {
   int rounds = 7;
 };
 
+int rounds_of(std::string_view text) {
+  int rounds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), rounds);
+  if (error != std::errc() || end != text.data() + text.size() || rounds < 1 || rounds > 1000)
+    throw std::runtime_error("--rounds " + std::string(text) + ": write a whole number from 1 to 1000");
+  return rounds;
+}
+
 /// Takes ours out of the arguments and leaves Google Benchmark's.
 Options take_options(int& argc, char** argv) {
   Options options;
@@ -38,7 +50,7 @@ Options take_options(int& argc, char** argv) {
     } else if (key == "--json" && value) {
       options.json = argv[++i];
     } else if (key == "--rounds" && value) {
-      options.rounds = std::max(std::atoi(argv[++i]), 1);
+      options.rounds = rounds_of(argv[++i]);
     } else if (key == "--first-pose" && value) {
       options.first_pose = argv[++i];
     } else {
@@ -70,7 +82,19 @@ double run_first_pose(const std::string& program, const std::string& raw) {
   return spread_of(samples).median;
 }
 
+/// As the operating system names it; empty where it does not.
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(':') + 2, line.size()));
+  }
+  return {};
+}
+
 void print_run(const Options& options, const FramePool& pool, const PairedResult& r) {
+  const std::string processor = processor_name();
+  std::printf("Processor: %s; kernels: %s, %s.\n", processor.empty() ? "not named" : processor.c_str(),
+              touchline::fastest_kernels().name, touchline::fastest_loc_kernels().name);
   std::printf(
       "Frames: %s, %zu views of %d shots, %dx%d RGB24, %.0f MB in rotation; one thread each;\nboth sides in turn; "
       "processor time of the thread.\n",
@@ -78,11 +102,15 @@ void print_run(const Options& options, const FramePool& pool, const PairedResult
       static_cast<double>(pool.views.size()) * shots_per_view * pool.width * pool.height * 3 / 1048576.0);
   print_paired(r.rows);
   print_agreement(r.agreement);
+  if (r.line_agreement < 0.5)
+    std::puts(
+        "\nThe two sides took less than half of their line pixels in common: they did different work from there on.");
   const double copy = r.memcpy_us.median;
   std::vector<FigureRow> figures = {
       {"memcpy of one frame", copy, 1.0, "the yardstick, from memory that no cache holds"},
       {"frame to pose", r.frame_to_pose_us.median, r.frame_to_pose_us.median / copy,
        "200 particles, full model, tracking"},
+      {"of it graph, junctions, posts", r.features_us.median, r.features_us.median / copy, ""},
       {"of it line points", r.line_points_us.median, r.line_points_us.median / copy, ""},
       {"of it localizer", r.localize_us.median, r.localize_us.median / copy, ""},
       {"frame to first pose", r.frame_to_first_pose_us.median, r.frame_to_first_pose_us.median / copy,

@@ -51,7 +51,7 @@ struct StageGroup {
 /// table, and our edges are part of the search.
 const std::vector<StageGroup>& groups() {
   static const std::vector<StageGroup> all = {
-      {"average", {Stage::average}, {PairedStage::average}, "mean of 4 frames, 752x480 to 320x240"},
+      {"average", {Stage::average}, {PairedStage::average}, "mean of 4 frames, subsampled to 320x240"},
       {"green", {Stage::green}, {PairedStage::green}, "ours: horizon, line widths, carpet's colour and white mask too"},
       {"roi", {Stage::roi}, {PairedStage::roi}, ""},
       {"candidates", {Stage::candidates}, {PairedStage::candidates}, ""},
@@ -65,7 +65,7 @@ const std::vector<StageGroup>& groups() {
        {PairedStage::green, PairedStage::roi, PairedStage::candidates, PairedStage::line_mask},
        "group: from the mean to the line mask"},
       {"thinning", {Stage::thinning}, {PairedStage::thinning}, "ours: short pieces removed too"},
-      {"digestion", {Stage::digestion}, {PairedStage::digestion}, ""},
+      {"digestion", {Stage::digestion}, {PairedStage::digestion}, "OpenCV has none: plain loops over its matrices"},
   };
   return all;
 }
@@ -138,6 +138,8 @@ class PairedRun {
     result_.frame_to_first_pose_us = spread_of(first_pose_);
     result_.localize_us = spread_of(localize_);
     result_.line_points_us = spread_of(line_points_);
+    result_.features_us = spread_of(features_);
+    result_.line_agreement = spread_of(iou_lines_).median;
     return result_;
   }
 
@@ -187,6 +189,9 @@ class PairedRun {
     double opencv = 0.0;
     for (const double us : theirs) opencv += us;
     vision_opencv_.push_back(opencv);
+    features_.push_back(ours_[static_cast<std::size_t>(Stage::graph)] +
+                        ours_[static_cast<std::size_t>(Stage::junctions)] +
+                        ours_[static_cast<std::size_t>(Stage::posts)]);
     const double points = ours_[static_cast<std::size_t>(Stage::line_points)];
     line_points_.push_back(points);
     localize_.push_back(localize_us_);
@@ -233,7 +238,7 @@ class PairedRun {
   PairedResult result_;
   std::array<Samples, 16> group_ours_, group_opencv_;
   Samples ours_average_, result_kinder_, vision_ours_, vision_opencv_, same_mask_ours_, same_mask_opencv_, memcpy_,
-      frame_to_pose_, first_pose_, localize_, line_points_;
+      frame_to_pose_, first_pose_, localize_, line_points_, features_;
   Samples iou_green_, iou_roi_, iou_lines_, lines_covered_, iou_skeleton_, skeleton_covered_, iou_same_mask_;
 };
 

@@ -17,6 +17,8 @@ struct PairedResult {
   Spread frame_to_pose_us;        // tracking
   Spread frame_to_first_pose_us;  // from nothing: the search over the whole field included
   Spread localize_us;             // tracking, on the frames
+  Spread features_us;             // graph, junctions and posts
+  double line_agreement = 0.0;    // IoU of the line masks, median
   Spread line_points_us;          // of ours alone: no part of the paper's chain
   std::vector<int> dropped;       // per view, of all capacities
 };
