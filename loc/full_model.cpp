@@ -110,8 +110,10 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   resample(yaw, math::min(share, largest_random_share));
 }
 
+// Functions with a judge are never inlined: it is four kilobytes of stack, which the rest of a frame has no use for.
+
 /// Log likelihood of every particle; returns the mean over the particles of the likelihood per measurement, in (0, 1].
-float Localizer::weigh_particles(const YawEvidence& yaw) {
+[[gnu::noinline]] float Localizer::weigh_particles(const YawEvidence& yaw) {
   PoseJudge judge(field_, map_, observation_, config_, yaw);
   const ParticleView p = particles();
   float sum = 0.0F;
@@ -133,6 +135,10 @@ void Localizer::inject_candidates(const VisionResult& vision, const YawEvidence&
   find_candidates(field_, map_, observation_, config_, yaw, candidates_);
   if (candidates_.empty()) return;
   look_for_missing(vision);
+  place_candidates(yaw, share);
+}
+
+[[gnu::noinline]] void Localizer::place_candidates(const YawEvidence& yaw, float share) {
   const ParticleView p = particles();
   const int count = std::max(1, part_of(p.count, math::min(share, 0.5F)));
   PoseJudge judge(field_, map_, observation_, config_, yaw);

@@ -85,6 +85,7 @@ class Localizer {
   // Steps of the full model, in this order (full_model.cpp).
   float weigh_particles(const YawEvidence& yaw);
   void inject_candidates(const VisionResult& vision, const YawEvidence& yaw, float share);
+  void place_candidates(const YawEvidence& yaw, float share);
   void look_for_missing(const VisionResult& vision);
   void refine_clusters(const VisionResult& vision, const YawEvidence& yaw);
   void look_closely(const Cluster& cluster, const VisionResult& vision, const YawEvidence& yaw,

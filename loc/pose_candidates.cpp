@@ -217,8 +217,8 @@ void sort_best_first(CandidateList& list) {  // insertion sort: at most 32
 
 }  // namespace
 
-void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
-                     const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out) {
+[[gnu::noinline]] void find_candidates(const Field& field, const DistanceField& map, const Observation& observation,
+                                       const LocalizerConfig& config, const YawEvidence& yaw, CandidateList& out) {
   out.clear();
   if (observation.features == nullptr) return;
   Search search(field, map, observation, config, yaw, out);

@@ -87,8 +87,8 @@ struct Look {
 
 }  // namespace
 
-Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
-                            float max_range) {
+[[gnu::noinline]] Visibility check_visibility(const Field& field, const VisionResult& vision, const Refinement& refined,
+                                              float max_range) {
   Look look{vision,
             refined.pose,
             PoseView(vision, refined.pose, refined.pitch_error, refined.roll_error),
