@@ -107,11 +107,13 @@ void BranchScan::place_knots() {
 
 void BranchScan::scan_side(const Side& side) {
   Run run;
-  for (std::size_t first = 0; first + 1 < knots_.size(); first += max_fences - 1) {
+  Fence fence;
+  for (std::size_t first = 0; first < knots_.size(); first += max_fences) {
     const std::size_t count = std::min(knots_.size() - first, max_fences);
     const Fences fences = fences_at({&knots_[first], count}, side);
-    for (std::size_t k = 0; k + 1 < count; ++k) {
-      scan_between(first + k, fences[k], fences[k + 1], side, run);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (first + k > 0) scan_between(first + k - 1, fence, fences[k], side, run);
+      fence = fences[k];
     }
   }
 }

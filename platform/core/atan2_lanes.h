@@ -37,13 +37,17 @@ template <typename Select>
   return select((x != x) | (y != y), x + y, angle);
 }
 
-/// atan2(y, x), bit for bit. Both sides of every choice are worked out and one is masked away: a compiler must not do
-/// so by itself with sums that could trap, and would not vectorise.
+/// atan2(y, x), bit for bit. For vectors both sides of every choice are worked out and one is masked away: a compiler
+/// must not do so by itself with sums that could trap.
 [[gnu::always_inline]] inline float atan2_lane(float y, float x) {
+#if defined(__SSE2__) || defined(__ARM_NEON)
   return atan2_by(y, x, [](bool condition, float a, float b) {
     const std::uint32_t mask = 0U - static_cast<std::uint32_t>(condition);
     return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) | (std::bit_cast<std::uint32_t>(b) & ~mask));
   });
+#else
+  return atan2_by(y, x, [](bool condition, float a, float b) { return condition ? a : b; });
+#endif
 }
 
 }  // namespace touchline::math

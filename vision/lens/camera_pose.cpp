@@ -69,6 +69,7 @@ bool GroundProjection::pixel(const GroundPoint& point, float z, PixelPoint& pixe
 }
 
 void GroundProjection::pixels(RayLanes& points) const {
+  points.pad();
   const int count = points.padded();
   const float down = 0.0F - pose_.height;
   for (int i = 0; i < count; ++i) {

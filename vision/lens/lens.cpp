@@ -225,6 +225,7 @@ void Lens::pixels(RayLanes& rays) const {
     }
     return;
   }
+  rays.pad();
   const int count = rays.padded();
   const LensParameters lens = parameters_;  // of our own, so that no store to the lanes can change it
   const float max_radius = max_radius_;

@@ -9,6 +9,7 @@
 
 #include "platform/core/geometry.h"
 #include "platform/core/status.h"
+#include "vision/image/vector_registers.h"
 
 namespace touchline {
 
@@ -36,19 +37,23 @@ struct LensParameters {
 
 /// Some rays and the pixels where they end, side by side for vectors.
 struct RayLanes {
-  static constexpr int most = 16;
-  static constexpr int width = 4;  // of the vectors that every processor with vectors has
+  static constexpr int most = vector_registers ? 16 : 8;
+  static constexpr int width = vector_registers ? 4 : 1;  // of the vectors that every processor with vectors has
   int count = 0;
-  float x[most] = {}, y[most] = {}, z[most] = {};
-  float u[most] = {}, v[most] = {};
-  std::int32_t seen[most] = {};  // 1, or 0 where the ray is beyond max_theta: then u and v say nothing
+  float x[most], y[most], z[most];
+  float u[most], v[most];
+  std::int32_t seen[most];  // 1, or 0 where the ray is beyond max_theta: then u and v say nothing
   /// A point on the carpet, for those who take x and y as that.
   void add(const GroundPoint& p) {
     x[count] = p.x;
     y[count++] = p.y;
   }
-  /// `count`, filled up to whole vectors.
+  /// `count`, up to whole vectors.
   [[nodiscard]] int padded() const { return (count + width - 1) / width * width; }
+  /// Fills the last vector with rays that end nowhere.
+  void pad() {
+    for (int i = count; i < padded(); ++i) x[i] = y[i] = z[i] = 0.0F;
+  }
 };
 
 /// A lens whose parameters were checked. Copyable, small, no state beyond the parameters and what follows from them.
