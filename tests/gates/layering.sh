@@ -39,7 +39,7 @@ rule() {
 # Kernels, the loops that they share, and the arithmetic on parts of words are the only files that may name a
 # processor's vector instructions.
 rule platform/core 'platform/core/' "$std_allowed" '^platform/core/[a-z_]+_loops[.]h$'
-rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+" '^vision/image/(kernels_[a-z0-9]+[.]cpp|[a-z_]+_(loops|avx2|avx512)[.]h|word_lanes[.]h)$'
+rule vision 'platform/core/|vision/' "$std_allowed|Eigen/[A-Za-z]+" '^vision/(image/)?(kernels_[a-z0-9]+[.]cpp|[a-z_]+_(loops|avx2|avx512)[.]h|word_lanes[.]h)$'
 rule loc 'platform/core/|vision/|loc/' "$std_allowed|Eigen/[A-Za-z]+" '^loc/(kernels_[a-z0-9]+[.]cpp|[a-z_]+_loops[.]h)$'
 # hal: interfaces and codecs are core; backends may use the operating system.
 rule hal 'platform/core/|hal/' "$std_allowed" '^hal/(linux|mock|replay|firmware)/'
