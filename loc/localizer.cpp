@@ -104,6 +104,7 @@ Status Localizer::configure(const LocalizerConfig& config, const Field& field, c
 }
 
 Status Localizer::reset(const Prior& prior, std::uint64_t seed) {
+  if (!configured_) return Status::not_ready;
   if (!is_valid(prior)) return Status::invalid_argument;
   rng_ = Rng(seed);
   features_.clear();

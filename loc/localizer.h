@@ -42,7 +42,7 @@ inline constexpr float max_angle = 1.0e4F;     // yaw and a prior's theta: a flo
 /// A pose farther than this from the carpet is none.
 inline constexpr float max_beside_m = 3.0F;
 
-/// Owns all memory of localization. About 110 KiB, most of it the distance map and the line samples.
+/// Owns all memory of localization; `touchline memory` prints how much.
 class Localizer {
  public:
   /// invalid_argument: a value is not finite or out of range; `what` names the key, when not null, and nothing changes.
@@ -50,10 +50,10 @@ class Localizer {
   Status configure(const LocalizerConfig& config, const Field& field, const char** what = nullptr);
   /// Forgets the pose and draws the particles from `prior`. The seed is the caller's: the same seed, the same poses.
   /// invalid_argument: the prior's pose or spread is not finite, beyond max_step_m, max_step_rad or max_angle, or its
-  /// spread is negative; nothing changes.
+  /// spread is negative; not_ready: no configure() has succeeded. Nothing changes then.
   Status reset(const Prior& prior, std::uint64_t seed);
   /// One frame. invalid_argument (a number that is not finite or beyond the limits above), not_ready (not configured or
-  /// reset): nothing has changed.
+  /// reset): nothing has changed. A time that stands still or runs backwards counts as no time: the yaw's drift is left.
   Status update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
                 StageObserver* observer = nullptr);
 

@@ -18,6 +18,7 @@ enum class PixelFormat : std::uint8_t {
 inline constexpr int max_frame_width = 1280;  // the largest camera of the data sets
 inline constexpr int max_frame_height = 1024;
 
+constexpr bool is_known(PixelFormat f) { return f <= PixelFormat::yuyv; }
 constexpr int bytes_per_pixel(PixelFormat f) { return f == PixelFormat::rgb24 || f == PixelFormat::bgr24 ? 3 : 2; }
 
 struct FrameView {

@@ -21,7 +21,9 @@ void check_can_be_written(const std::filesystem::path& file) {
 }  // namespace
 
 int run_accept(const AcceptCommand& command, std::ostream& out, std::ostream& err) {
-  if (!std::filesystem::is_directory(command.folder)) {
+  if (command.folder.empty() && !command.simulator)
+    throw HostError("accept --no-simulator: nothing is left to judge; give the folder that holds the data sets");
+  if (!command.folder.empty() && !std::filesystem::is_directory(command.folder)) {
     throw HostError(command.folder +
                     ": no such folder; give the folder that holds render-table2 and the other data sets");
   }
@@ -30,7 +32,8 @@ int run_accept(const AcceptCommand& command, std::ostream& out, std::ostream& er
   if (command.rewrite) check_can_be_written(command.figures);
   if (!command.output.empty()) check_can_be_written(command.output);
   const Progress progress = [&err](const std::string& what) { err << what << "\n" << std::flush; };
-  Figures figures = accept_data_sets(command.folder, progress);
+  Figures figures;
+  if (!command.folder.empty()) figures = accept_data_sets(command.folder, progress);
   if (command.simulator) {
     const Figures more = accept_simulator(command.runs, progress);
     figures.insert(figures.end(), more.begin(), more.end());

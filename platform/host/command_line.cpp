@@ -93,7 +93,8 @@ void add_locate(CLI::App& app, LocateCommand& command) {
 void add_accept(CLI::App& app, AcceptCommand& command) {
   CLI::App& sub = add_command(app, "accept", "the acceptance figures beside their targets",
                               "accept data --figures tests/accept/figures.json");
-  add_text(sub, "FOLDER", command.folder, "holds render-table2, render-hard, render-walk, real-kidsize")->required();
+  add_text(sub, "FOLDER", command.folder,
+           "holds render-table2, render-hard, render-walk, real-kidsize; without it, the simulator's rows alone");
   add_text(sub, "--figures", command.figures, "fail where a figure is worse than in this file");
   sub.add_flag("--rewrite", command.rewrite, "write that file anew instead");
   add_text(sub, "--output", command.output, "write the figures of this run as JSON");

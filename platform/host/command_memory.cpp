@@ -23,15 +23,27 @@ void chain_rows(std::ostream& out, const char* title) {
   // What a small board must have for all of it: well below 1 MiB and 640 KiB.
   static_assert(W != 320 || Depth != 4 || vision + sizeof(Localizer) <= 900 * 1024);
   static_assert(W != 320 || Depth != 1 || vision + sizeof(Localizer) <= 640 * 1024);
+  constexpr std::size_t fifo = sizeof(Yuv420Image<W, H>) * std::size_t{Depth};
+  constexpr std::size_t masks = sizeof(BitImage<W, H>) * (mask_count - 1);
+  constexpr std::size_t tables = (sizeof(Vec3) * static_cast<std::size_t>(ray_columns(W) * ray_rows(H))) +
+                                 sizeof(LineWidth) * static_cast<std::size_t>((ray_columns(W) - 1) * (ray_rows(H) - 1));
+  constexpr std::size_t named =
+      fifo + masks + sizeof(GraphStorage<W, H>) + sizeof(FeatureWork) + sizeof(Features) + tables;
+  constexpr std::size_t particles = 2 * sizeof(ParticleStorage<max_particles>);
+  constexpr std::size_t loc_named = particles + sizeof(DistanceField) + sizeof(FeatureManager);
   out << title << "\n";
-  row(out, "vision: FIFO, and the mean in it", sizeof(Yuv420Image<W, H>) * std::size_t{Depth});
-  row(out, "vision: masks", sizeof(BitImage<W, H>) * (mask_count - 1));
+  row(out, "vision: FIFO, and the mean in it", fifo);
+  row(out, "vision: masks", masks);
   row(out, "vision: skeleton index, digestion, node graph", sizeof(GraphStorage<W, H>));
+  row(out, "vision: search for features", sizeof(FeatureWork));
   row(out, "vision: features", sizeof(Features));
+  row(out, "vision: rays of the lens, line widths", tables);
+  row(out, "vision: rows, blobs, hull, the rest", vision - named);
   row(out, "vision, whole state", vision);
-  row(out, "localization: particles, two sets", 2 * sizeof(ParticleStorage<max_particles>));
+  row(out, "localization: particles, two sets", particles);
   row(out, "localization: distances to the field's lines", sizeof(DistanceField));
   row(out, "localization: feature manager", sizeof(FeatureManager));
+  row(out, "localization: observation, modes, the rest", sizeof(Localizer) - loc_named);
   row(out, "localization, whole state", sizeof(Localizer));
   row(out, "vision and localization", vision + sizeof(Localizer));
 }

@@ -156,6 +156,7 @@ TEST_CASE("accept finds what would fail at the end before it runs anything") {
   check_refused(run({"accept", path, "--figures", path + "/missing.json"}), "missing.json: no such file");
   folder.write("broken.json", "{\"figures\": 3}");
   check_refused(run({"accept", path, "--figures", path + "/broken.json"}), "not a file of figures");
+  check_refused(run({"accept", "--no-simulator"}), "nothing is left to judge");
   check_refused(run({"accept", path, "--output", path + "/none/x.json"}), "none/x.json: cannot be written");
   check_refused(run({"accept", path, "--output", path + "/x.json"}),
                 "holds none of the data sets that are judged: render-table2, render-hard, render-walk, real-kidsize");
@@ -373,10 +374,28 @@ TEST_CASE("demo: the robot is kidnapped and found again; stages, field and figur
   CHECK(stages.seekg(0, std::ios::end).tellg() > 100000);
 }
 
-TEST_CASE("memory prints the budget") {
+TEST_CASE("memory prints the budget, in parts that add up to the whole") {
   const Run result = run({"memory"});
   CHECK(result.status == 0);
-  CHECK(contains(result.out, "vision and localization"));
+  std::istringstream lines(result.out);
+  long parts = 0;
+  long wholes = 0;
+  int states = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t unit = line.find(" bytes");
+    if (unit == std::string::npos) continue;
+    const long bytes = std::stol(line.substr(line.rfind(' ', unit - 1)));
+    CHECK(bytes > 0);
+    if (contains(line, "vision and localization")) {
+      CHECK(wholes == bytes);
+      CHECK(parts == bytes);
+      parts = wholes = 0;
+      ++states;
+    } else {
+      (contains(line, "whole state") ? wholes : parts) += bytes;
+    }
+  }
+  CHECK(states == 3);
 }
 
 }  // namespace

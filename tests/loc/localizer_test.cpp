@@ -196,6 +196,7 @@ TEST_CASE("bad input is refused and changes nothing") {
   Robot robot;
   const VisionResult& vision = robot.view.look({}, robot.camera, {}, robot.rng);
   CHECK(fresh.update({}, vision, estimate) == Status::not_ready);
+  CHECK(fresh.reset({}, 1) == Status::not_ready);
   LocalizerInput input;
   input.odometry.x = std::numeric_limits<float>::quiet_NaN();
   CHECK(robot.localizer->update(input, vision, estimate) == Status::invalid_argument);

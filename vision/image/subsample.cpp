@@ -341,7 +341,8 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
       !has_size(out.cr, chroma_width, chroma_height)) {
     return Status::wrong_size;
   }
-  if (frame.data == nullptr || frame.stride_bytes < frame.width * bytes_per_pixel(frame.format) ||
+  if (frame.data == nullptr || !is_known(frame.format) ||
+      frame.stride_bytes < frame.width * bytes_per_pixel(frame.format) ||
       (frame.format == PixelFormat::yuyv && frame.width % 2 != 0)) {
     return Status::invalid_argument;
   }

@@ -256,6 +256,9 @@ TEST_CASE("what is wrong is refused and leaves the picture alone") {
   broken.stride_bytes = 94 * 3 - 1;
   CHECK(subsampler.run(broken, picture.view()) == Status::invalid_argument);
   broken = frame.view();
+  broken.format = static_cast<PixelFormat>(9);
+  CHECK(subsampler.run(broken, picture.view()) == Status::invalid_argument);
+  broken = frame.view();
   broken.data = nullptr;
   CHECK(subsampler.run(broken, picture.view()) == Status::invalid_argument);
   CHECK(picture == untouched);
