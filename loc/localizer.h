@@ -53,7 +53,8 @@ class Localizer {
   /// spread is negative; not_ready: no configure() has succeeded. Nothing changes then.
   Status reset(const Prior& prior, std::uint64_t seed);
   /// One frame. invalid_argument (a number that is not finite or beyond the limits above), not_ready (not configured or
-  /// reset): nothing has changed. A time that stands still or runs backwards counts as no time: the yaw's drift is left.
+  /// reset): nothing has changed. A time that stands still or runs backwards counts as no time: the yaw's drift is
+  /// left.
   Status update(const LocalizerInput& input, const VisionResult& vision, PoseEstimate& estimate,
                 StageObserver* observer = nullptr);
 
