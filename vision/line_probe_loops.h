@@ -187,8 +187,7 @@ template <class L>
   store(p.state + lane, choose(without(alive, good), whole<L>(probe_no_edge), state));
 }
 
-// --- Width on the ground
-// -----------------------------------------------------------------------------------------------
+// --- Width on the ground ---------------------------------------------------------------------------------------------
 
 template <class L>
 struct Vector {
@@ -323,8 +322,7 @@ template <class L>
   store(p.state + lane, choose(without(alive, good), wrong, state));
 }
 
-// --- Place on the ground
-// -------------------------------------------------------------------------------------------------
+// --- Place on the ground ---------------------------------------------------------------------------------------------
 
 /// The ground under the line's edges; the middle of both, and its place in the picture.
 template <class L>
