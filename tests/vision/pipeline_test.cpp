@@ -226,8 +226,6 @@ TEST_CASE("what finds no room is counted where it was lost, and the frame stays 
        &VisionCounts::dropped_nodes},
       {"edges", [](PipelineMemory& m) { m.graph.graph.edges = m.graph.graph.edges.first(5); },
        &VisionCounts::dropped_edges},
-      {"edges' points", [](PipelineMemory& m) { m.graph.graph.points = m.graph.graph.points.first(100); },
-       &VisionCounts::dropped_points},
   };
   for (const Shrunk& c : cases) {
     const std::string what = c.what;
