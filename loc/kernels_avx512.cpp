@@ -6,6 +6,8 @@
 
 #if defined(__x86_64__) && defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && \
     defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VNNI__)
+// Without optimisation g++'s gathers are macros, whose conversions are warned of where they are used.
+#pragma GCC diagnostic ignored "-Wsign-conversion"
 #include "loc/kernel_loops.h"
 #include "loc/noise_loops.h"
 
