@@ -7,22 +7,17 @@
 #include <bit>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/canny_rows.h"
 #include "vision/image/canny_words.h"
 #include "vision/image/vector_registers.h"
 
 namespace touchline {
 namespace {
 
-/// The blur is not divided by its 16, so that nothing is rounded: magnitudes are 16 times those of the thresholds.
-constexpr int blur_scale = 16;
-
 /// Rows of samples -1..width; index 0 is column 0.
-class RollingRows {
+class RollingRows : private CannyRows {
  public:
-  RollingRows(CannyMemory memory, int width) : rows_(memory.rows), stride_(canny_row_stride(width)) {
-    assert(rows_.size() >= static_cast<std::size_t>(canny_rows * stride_));
-    std::fill(rows_.begin(), rows_.begin() + canny_rows * stride_, std::uint16_t{0});
-  }
+  using CannyRows::CannyRows;
   [[nodiscard]] std::uint16_t* vertical() const { return row(0); }
   [[nodiscard]] std::uint16_t* column_sums() const { return row(1); }
   [[nodiscard]] std::int16_t* column_steps() const { return signed_row(2); }
@@ -30,13 +25,6 @@ class RollingRows {
   [[nodiscard]] std::uint16_t* magnitude(int y) const { return row(6 + (y + 3) % 3); }
   [[nodiscard]] std::int16_t* gx(int y) const { return signed_row(9 + (y & 1)); }
   [[nodiscard]] std::int16_t* gy(int y) const { return signed_row(11 + (y & 1)); }
-
- private:
-  [[nodiscard]] std::uint16_t* row(int i) const { return rows_.data() + i * stride_ + canny_row_margin; }
-  /// Signed and unsigned types of one width may look at the same memory.
-  [[nodiscard]] std::int16_t* signed_row(int i) const { return reinterpret_cast<std::int16_t*>(row(i)); }
-  std::span<std::uint16_t> rows_;
-  int stride_;
 };
 
 /// The outermost samples repeat beyond the image.
@@ -69,38 +57,35 @@ std::uint32_t is_maximum(const EdgeNeighbours& neighbours, int x) {
   return here >= side_back * (most - least) + corner_back * least ? 1U : 0U;
 }
 
-struct ByWords {
-  static constexpr auto sum_rows = canny_words::sum_rows;
-  static constexpr auto sum_columns = canny_words::sum_columns;
-  static constexpr auto sum_and_step = canny_words::sum_and_step;
-  static BitWord slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) {
-    BitWord bits = 0;
-    int x = columns.first;
-    for (; x + canny_words::block_px <= columns.end; x += canny_words::block_px) {
-      bits |= BitWord{canny_words::slopes_of_block(s, x, threshold)} << (x - columns.first);
-    }
-    for (; x < columns.end; ++x) {
-      bits |= (canny_words::slope_at(s, x, threshold) ? BitWord{1} : BitWord{0}) << (x - columns.first);
-    }
-    return bits;
+/// The columns, at most 64, whose magnitude is at least the threshold.
+BitWord find_slopes(const EdgeSlopes& s, EdgeColumns columns, int threshold) {
+  BitWord bits = 0;
+  int x = columns.first;
+  for (; x + canny_words::block_px <= columns.end; x += canny_words::block_px) {
+    bits |= BitWord{canny_words::slopes_of_block(s, x, threshold)} << (x - columns.first);
   }
-  static EdgeMaxima maxima(const EdgeNeighbours& rows, int x0, BitWord candidates, int threshold) {
-    EdgeMaxima found;
-    for (int half = 0; half < bits_per_word; half += 32) {  // a register of a small processor each
-      std::uint32_t weak_bits = 0;
-      std::uint32_t strong_bits = 0;
-      for (auto left = static_cast<std::uint32_t>(candidates >> half); left != 0; left &= left - 1) {
-        const int bit = std::countr_zero(left);
-        const std::uint32_t maximum = is_maximum(rows, x0 + half + bit) << bit;
-        weak_bits |= maximum;
-        if (rows.here[x0 + half + bit] >= threshold) strong_bits |= maximum;
-      }
-      found.weak |= BitWord{weak_bits} << half;
-      found.strong |= BitWord{strong_bits} << half;
-    }
-    return found;
+  for (; x < columns.end; ++x) {
+    bits |= (canny_words::slope_at(s, x, threshold) ? BitWord{1} : BitWord{0}) << (x - columns.first);
   }
-};
+  return bits;
+}
+
+EdgeMaxima maxima_of_word(const EdgeNeighbours& rows, int x0, BitWord candidates, int threshold) {
+  EdgeMaxima found;
+  for (int half = 0; half < bits_per_word; half += 32) {  // a register of a small processor each
+    std::uint32_t weak_bits = 0;
+    std::uint32_t strong_bits = 0;
+    for (auto left = static_cast<std::uint32_t>(candidates >> half); left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const std::uint32_t maximum = is_maximum(rows, x0 + half + bit) << bit;
+      weak_bits |= maximum;
+      if (rows.here[x0 + half + bit] >= threshold) strong_bits |= maximum;
+    }
+    found.weak |= BitWord{weak_bits} << half;
+    found.strong |= BitWord{strong_bits} << half;
+  }
+  return found;
+}
 
 constexpr int block_px = 32;
 /// Blocks of a row, a bit each: widths up to 2048.
@@ -158,10 +143,10 @@ EdgeColumns wider(EdgeColumns columns, int width) {
 void blur_row(const ImageView<const std::uint8_t>& gray, int y, Blocks blocks, std::uint16_t* vertical,
               std::uint16_t* out) {
   for_each_run(blocks, gray.width, [&](EdgeColumns columns) {
-    ByWords::sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
-                      wider(columns, gray.width), vertical);
+    canny_words::sum_rows(gray.row(std::max(y - 1, 0)), gray.row(y), gray.row(std::min(y + 1, gray.height - 1)),
+                          wider(columns, gray.width), vertical);
     repeat_ends(vertical, gray.width);
-    ByWords::sum_columns(vertical, columns, out);
+    canny_words::sum_columns(vertical, columns, out);
   });
 }
 
@@ -183,9 +168,9 @@ void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks block
   const int width = roi.width;
   const EdgeSlopes slopes = {rows.column_sums(), rows.column_steps(), rows.gx(y), rows.gy(y), rows.magnitude(y)};
   for_each_run(blocks, width, [&](EdgeColumns columns) {
-    ByWords::sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y),
-                          rows.blurred(std::min(y + 1, roi.height - 1)), wider(columns, width), rows.column_sums(),
-                          rows.column_steps());
+    canny_words::sum_and_step(rows.blurred(std::max(y - 1, 0)), rows.blurred(y),
+                              rows.blurred(std::min(y + 1, roi.height - 1)), wider(columns, width), rows.column_sums(),
+                              rows.column_steps());
   });
   repeat_ends(rows.column_sums(), width);
   repeat_ends(rows.column_steps(), width);
@@ -199,9 +184,9 @@ void gradient_row(const RollingRows& rows, ConstBitView roi, int y, Blocks block
     const int end = std::min(x0 + bits_per_word, width);
     const int half = std::min(x0 + block_px, width);
     BitWord bits = 0;
-    if (near << (block_px - 1) != 0) bits = ByWords::slopes(slopes, {x0, half}, threshold);
+    if (near << (block_px - 1) != 0) bits = find_slopes(slopes, {x0, half}, threshold);
     if (near >> (block_px - 1) != 0 && half < end) {
-      bits |= ByWords::slopes(slopes, {half, end}, threshold) << block_px;
+      bits |= find_slopes(slopes, {half, end}, threshold) << block_px;
     }
     candidates.row(y)[i] = roi.row(y)[i] & bits;
   }
@@ -213,7 +198,7 @@ void find_maxima(const RollingRows& rows, int y, int strong_threshold, BitView w
       rows.gx(y), rows.gy(y), rows.magnitude(y - 1), rows.magnitude(y), rows.magnitude(y + 1), weak.width};
   for (int i = 0; i < words_for(weak.width); ++i) {
     if (weak.row(y)[i] == 0) continue;
-    const EdgeMaxima found = ByWords::maxima(neighbours, i * bits_per_word, weak.row(y)[i], strong_threshold);
+    const EdgeMaxima found = maxima_of_word(neighbours, i * bits_per_word, weak.row(y)[i], strong_threshold);
     weak.row(y)[i] = found.weak;
     strong.row(y)[i] = found.strong;
   }

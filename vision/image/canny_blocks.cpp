@@ -8,33 +8,21 @@
 
 #include "vision/image/bit_ops.h"
 #include "vision/image/canny.h"
+#include "vision/image/canny_rows.h"
 
 namespace touchline {
 namespace {
 
-/// The blur is not divided by its 16, so that nothing is rounded: magnitudes are 16 times those of the thresholds.
-constexpr int blur_scale = 16;
-
 /// Rows of samples, whole blocks wide, with room for one sample before and behind; each row at its number modulo as
 /// many as there are.
-class RollingRows {
+class RollingRows : private CannyRows {
  public:
-  RollingRows(CannyMemory memory, int width) : rows_(memory.rows), stride_(canny_row_stride(width)) {
-    assert(rows_.size() >= static_cast<std::size_t>(canny_rows * stride_));
-    std::fill(rows_.begin(), rows_.begin() + canny_rows * stride_, std::uint16_t{0});
-  }
+  using CannyRows::CannyRows;
   [[nodiscard]] std::int16_t* steps(int y) const { return signed_row(y % 5); }
   [[nodiscard]] std::int16_t* sums(int y) const { return signed_row(5 + y % 5); }
   [[nodiscard]] std::int16_t* gx(int y) const { return signed_row(10 + y % 2); }
   [[nodiscard]] std::int16_t* gy(int y) const { return signed_row(12 + y % 2); }
   [[nodiscard]] std::uint16_t* magnitude(int y) const { return row(14 + (y + 3) % 3); }
-
- private:
-  [[nodiscard]] std::uint16_t* row(int i) const { return rows_.data() + i * stride_ + canny_row_margin; }
-  /// Signed and unsigned types of one width may look at the same memory.
-  [[nodiscard]] std::int16_t* signed_row(int i) const { return reinterpret_cast<std::int16_t*>(row(i)); }
-  std::span<std::uint16_t> rows_;
-  int stride_;
 };
 static_assert(canny_rows >= 17 || !vector_registers);
 

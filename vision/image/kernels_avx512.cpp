@@ -26,7 +26,6 @@
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/thinning_loops.h"
-#include "vision/image/window_moments_avx512.h"
 #include "vision/line_probe_loops.h"
 #include "vision/probe_moments_avx512.h"
 
@@ -44,7 +43,7 @@ Kernels avx512_kernels() {
       .block_widths = block_widths::measure,
       .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
-      .window_moments = moments_avx512::window_moments,
+      .window_moments = nullptr,  // probes.moments takes sixteen windows at once
       .below_half_level = half_level::below_half_level,
       .count_bits = bit_count::count_bits,
       .thin = thinning::run,
