@@ -53,8 +53,8 @@ class DistanceField {
 
  private:
   // Half of the largest field, 1 m beyond (there the distance reaches `cap`), and a node at either end.
-  static constexpr int max_columns = 162;
-  static constexpr int max_rows = 112;
+  static constexpr int max_columns = 161;
+  static constexpr int max_rows = 111;
   static_assert((static_cast<float>(max_columns) - 1.0F) * cell >= 0.5F * max_field_length + cap);
   static_assert((static_cast<float>(max_rows) - 1.0F) * cell >= 0.5F * max_field_width + cap);
   static constexpr int layer = max_columns * max_rows;

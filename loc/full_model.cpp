@@ -99,7 +99,7 @@ void Localizer::update_full(const VisionResult& vision, const YawEvidence& yaw, 
   const float share = frames_ == 0 ? first_share : augmented_.random_share(config_.augmented);
   const bool unsure = !last_.valid || belief_ < config_.confident;
   if (unsure || share > search_share) inject_candidates(vision, yaw, math::max(share, unsure ? unsure_share : 0.0F));
-  find_clusters(particles(), cluster_radius_m, cluster_angle, scratch_.log_weight.data(), clusters_, cluster_index_);
+  find_clusters(particles(), cluster_radius_m, cluster_angle, resampling_.weights.data(), clusters_, cluster_index_);
   refine_clusters(vision, yaw);
   balance_twins(yaw);
   share_out_mass();
@@ -329,7 +329,7 @@ void Localizer::sharpen_particles(const ClusterIndex& index) {
 void Localizer::resample(const YawEvidence& yaw, float random_share) {
   const ParticleView p = particles();
   const int fresh = part_of(p.count, random_share);
-  resample_low_variance(p, p.count - fresh, scratch_.view(p.count), rng_);
+  resample_low_variance(p, p.count - fresh, resampling_.memory(), rng_);
   for (int i = p.count - fresh; i < p.count; ++i) {
     p.set_pose(i, random_pose(yaw));
     p.log_weight[i] = 0.0F;

@@ -16,6 +16,7 @@
 #include "loc/pose_candidates.h"
 #include "loc/pose_estimate.h"
 #include "loc/refinement.h"
+#include "loc/resampling.h"
 #include "loc/yaw_tracker.h"
 #include "platform/core/rng.h"
 #include "platform/core/status.h"
@@ -106,7 +107,7 @@ class Localizer {
   DistanceField map_{};
   Rng rng_{0};
   ParticleStorage<max_particles> particles_{};
-  ParticleStorage<max_particles> scratch_{};
+  ResamplingStorage<max_particles> resampling_{};
   Observation observation_{};
   CandidateList candidates_{};
   ClusterList clusters_{};

@@ -33,7 +33,7 @@ void Localizer::update_paper(const VisionResult& /*vision*/, const YawEvidence& 
   add_paper_likelihood(field_, features_, config_.features, config_.landmark_variance_floor, cloud_, false, p);
   augmented_.update(average_weight(p), config_.augmented);
 
-  find_clusters(p, cluster_radius_m, cluster_angle, scratch_.log_weight.data(), clusters_, cluster_index_);
+  find_clusters(p, cluster_radius_m, cluster_angle, resampling_.weights.data(), clusters_, cluster_index_);
   estimate = {};
   bool anything_seen = false;
   for (int t = 0; t < feature_types; ++t)

@@ -34,34 +34,50 @@ float effective_count(ParticleView particles) {
   return squares > 0.0F ? sum * sum / squares : 0.0F;
 }
 
-void resample_low_variance(ParticleView particles, int keep, ParticleView scratch, Rng& rng) {
-  assert(keep >= 0 && keep <= particles.count && scratch.count >= particles.count);
+namespace {
+
+/// Each of the first places gets the particle drawn for it. The numbers drawn never fall, so a place that takes one
+/// from below is wanted by none before it, nor one that takes from above by any behind it: no copy is needed.
+void take_drawn(ParticleView particles, std::span<const std::uint16_t> drawn) {
+  const int places = static_cast<int>(drawn.size());
+  const auto source = [&](int i) { return int{drawn[static_cast<std::size_t>(i)]}; };
+  for (int i = places - 1; i >= 0; --i) {
+    if (source(i) < i) particles.set_pose(i, particles.pose(source(i)));
+  }
+  for (int i = 0; i < places; ++i) {
+    if (source(i) > i) particles.set_pose(i, particles.pose(source(i)));
+  }
+}
+
+}  // namespace
+
+void resample_low_variance(ParticleView particles, int keep, const ResamplingMemory& memory, Rng& rng) {
+  const auto count = static_cast<std::size_t>(particles.count);
+  assert(keep >= 0 && keep <= particles.count && memory.weights.size() >= count && memory.drawn.size() >= count);
   if (keep == 0) return;
   normalize_log_weights(particles);
   float total = 0.0F;
   float last = 0.0F;  // normalised, the best weight: neighbours are often equal
   float weight = 1.0F;
-  for (int i = 0; i < particles.count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     if (particles.log_weight[i] != last) {
       last = particles.log_weight[i];
       weight = math::exp(last);
     }
-    scratch.log_weight[i] = weight;  // linear weight, for this call only
+    memory.weights[i] = weight;
     total += weight;
   }
   const float step = total / static_cast<float>(keep);
   const float offset = step * rng.uniform();
-  float sum = scratch.log_weight[0];
-  int from = 0;
+  float sum = memory.weights[0];
+  std::size_t from = 0;
   for (int i = 0; i < keep; ++i) {
     const float target = offset + step * static_cast<float>(i);
-    while (sum < target && from + 1 < particles.count) sum += scratch.log_weight[++from];
-    scratch.set_pose(i, particles.pose(from));
-  }
-  for (int i = 0; i < keep; ++i) {
-    particles.set_pose(i, scratch.pose(i));
+    while (sum < target && from + 1 < count) sum += memory.weights[++from];
+    memory.drawn[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(from);
     particles.log_weight[i] = 0.0F;
   }
+  take_drawn(particles, memory.drawn.first(static_cast<std::size_t>(keep)));
 }
 
 int part_of(int count, float share) {

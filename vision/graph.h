@@ -27,8 +27,8 @@ inline constexpr std::uint16_t no_node = 0xFFFF;
 struct GraphEdge {
   std::uint16_t node_a = no_node;
   std::uint16_t node_b = no_node;
-  std::uint32_t first_point = 0;  // into NodeGraphView::points, from node_a to node_b, both ends included
-  std::uint32_t point_count = 0;
+  std::uint16_t first_point = 0;  // into NodeGraphView::points, from node_a to node_b, both ends included
+  std::uint16_t point_count = 0;
 };
 
 struct NodeGraphView {

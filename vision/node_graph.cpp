@@ -167,7 +167,7 @@ void Builder::join(std::uint16_t a, std::uint16_t b, std::uint32_t first_point) 
     return;
   }
   const auto edge = static_cast<std::uint16_t>(edges_);
-  memory_.edges[edges_++] = {a, b, first_point, count};
+  memory_.edges[edges_++] = {a, b, static_cast<std::uint16_t>(first_point), static_cast<std::uint16_t>(count)};
   node_a.edge[node_a.degree++] = edge;
   if (node_b != nullptr) node_b->edge[node_b->degree++] = edge;
 }
@@ -240,7 +240,7 @@ void Builder::walk_from(std::uint16_t node) {
 
 /// Depth first: a node that a walk has reached is walked from before those that were reached earlier.
 void Builder::walk_all() {
-  for (std::size_t n = 0; n < nodes_; ++n) memory_.expanded[n] = 0;
+  for (BitWord& nodes : memory_.expanded) nodes = 0;
   for (std::size_t n = 0; n < nodes_; ++n) walk_component(static_cast<std::uint16_t>(n));
 }
 
@@ -249,8 +249,10 @@ void Builder::walk_component(std::uint16_t seed) {
   push(seed);
   while (stacked_ > 0) {
     const std::uint16_t node = memory_.stack[--stacked_];
-    if (memory_.expanded[node] != 0) continue;
-    memory_.expanded[node] = 1;
+    BitWord& expanded = memory_.expanded[word(node)];
+    const BitWord flag = BitWord{1} << bit(node);
+    if ((expanded & flag) != 0) continue;
+    expanded |= flag;
     walk_from(node);
   }
 }
@@ -265,7 +267,6 @@ void Builder::walk_orphans() {
     memory_.node_of[p] = node;
     close(p);
     memory_.cluster[clustered_++] = p;
-    memory_.expanded[node] = 0;
     walk_component(node);
   });
 }
@@ -283,7 +284,8 @@ NodeGraphResult build_node_graph(const SkeletonIndex& skeleton, std::span<const 
                                  const NodeGraphMemory& memory) {
   const auto pixels = static_cast<std::size_t>(skeleton.size());
   assert(memory.node_of.size() >= pixels && memory.cluster.size() >= pixels && memory.stack.size() >= pixels);
-  assert(memory.first_pixel.size() >= memory.nodes.size() && memory.expanded.size() >= memory.nodes.size());
+  assert(memory.first_pixel.size() >= memory.nodes.size() &&
+         memory.expanded.size() * bits_per_word >= memory.nodes.size());
   assert(memory.nodes.size() < no_node && memory.edges.size() < no_node);
   assert(memory.open.size() >= static_cast<std::size_t>(words_for(skeleton.width()) * skeleton.height()));
   (void)pixels;

@@ -32,10 +32,10 @@ struct NodeGraphMemory {
   std::span<PixelIndex> cluster;         // one a skeleton pixel: the pixels of the forks, fork by fork
   std::span<std::uint16_t> stack;        // one a skeleton pixel; holds pixels, then nodes
   std::span<std::uint16_t> first_pixel;  // one a node: where its pixels begin in `cluster`
-  std::span<std::uint8_t> expanded;      // one a node: its ways have been walked
+  std::span<BitWord> expanded;           // a bit a node: its ways have been walked
   std::span<GraphNode> nodes;            // at most 65,534
   std::span<GraphEdge> edges;            // at most 65,534
-  std::span<GridPoint> points;
+  std::span<GridPoint> points;           // at most 65,535
 };
 
 struct NodeGraphResult {

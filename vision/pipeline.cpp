@@ -202,11 +202,7 @@ void Pipeline::make_skeleton(VisionResult& result) {
   const BitView& skeleton = views_.mask(MaskId::skeleton);
   copy(views_.mask(MaskId::line_mask), skeleton);
   thin(skeleton, memory_.thinning, config_.kernels.thin);
-  const NodeGraphMemory& graph = memory_.graph.graph;  // made later
-  const PieceCounts pieces =
-      remove_short_pieces(skeleton, result.line_widths, scaled(5),
-                          {graph.cluster, graph.stack, graph.points.first(graph.points.size() / 2),
-                           graph.points.subspan(graph.points.size() / 2)});
+  const PieceCounts pieces = remove_short_pieces(skeleton, result.line_widths, scaled(5), memory_.pieces);
   result.counts.dropped_points = pieces.overflowed;
   result.skeleton = skeleton;
   result.counts.skeleton_pixels = count(skeleton, config_.kernels);
@@ -240,7 +236,7 @@ void Pipeline::find_features(VisionResult& result) {
   const WorkRays rays(result.projection, views_.rays, config_.frame_width, config_.frame_height, views_.width,
                       views_.height);
   const FieldView field{result.line_mask, result.green, views_.mask(MaskId::green), result.roi};
-  find_line_segments(result.graph, rays, field, {config_.line_width_m, config_.max_range_m}, memory_.graph.edge_done,
+  find_line_segments(result.graph, rays, field, {config_.line_width_m, config_.max_range_m}, memory_.edge_done,
                      work.lines);
   features.has_circle =
       find_circle(work.lines, rays, {config_.circle_radius_m, config_.line_width_m}, work.circle, features.circle);

@@ -18,6 +18,7 @@
 #include "vision/junctions.h"
 #include "vision/line_width_table.h"
 #include "vision/ray_grid.h"
+#include "vision/short_pieces.h"
 
 namespace touchline {
 
@@ -32,13 +33,14 @@ enum class MaskId : std::uint8_t {
   roi,          // its hull
   candidates,   // white search united with Canny
   line_mask,
-  post_colour,  // the colour of goal posts
   edges,        // Canny's, before the rule of white and green
-  scratch,
-  skeleton,  // in the memory of white
+  skeleton,     // in the memory of white, which was looked at for the last time before
+  post_colour,  // the colour of goal posts; likewise in that of ground
+  scratch,      // in the memory that stages work in, so no stage finds it as another left it
   count,
 };
 inline constexpr std::size_t mask_count = static_cast<std::size_t>(MaskId::count);
+inline constexpr std::size_t stored_mask_count = static_cast<std::size_t>(MaskId::skeleton);  // the rest share memory
 
 /// Samples of one working image at full capacity.
 struct Yuv420Samples {
@@ -54,14 +56,16 @@ struct PipelineMemory {
   std::array<std::span<BitWord>, mask_count> masks;
   std::span<Vec3> rays;
   std::span<LineWidth> line_widths;
-  ThinningMemory thinning;
   BlobMemory blob_search;
   std::span<Blob> blobs;
   std::span<GridPoint> hull;          // two a row, and one
   std::span<GridPoint> hull_scratch;  // likewise
   CannyMemory canny;
+  ThinningMemory thinning;
+  PieceMemory pieces;
   GraphMemory graph;
   FeatureWork* feature_work = nullptr;
+  std::span<std::uint8_t> edge_done;  // one an edge of the graph
   Features* features = nullptr;
 };
 

@@ -7,6 +7,7 @@
 #include "vision/image/frame.h"
 #include "vision/image/hull.h"
 #include "vision/pipeline_memory.h"
+#include "vision/stage_work.h"
 
 namespace touchline {
 
@@ -22,20 +23,23 @@ class PipelineStorage {
     m.max_height = H;
     m.depth = static_cast<std::size_t>(Depth);
     for (std::size_t i = 0; i < m.depth; ++i) m.slots[i] = samples(images_[i]);
-    m.subsample = subsample_.memory();
-    for (std::size_t i = 0; i < stored_masks; ++i) m.masks[i] = masks_[i].words;
-    // The skeleton is made after white was last looked at.
-    m.masks[static_cast<std::size_t>(MaskId::skeleton)] = m.masks[static_cast<std::size_t>(MaskId::white)];
+    for (std::size_t i = 0; i < stored_mask_count; ++i) m.masks[i] = masks_[i].words;
+    mask(m, MaskId::skeleton) = mask(m, MaskId::white);
+    mask(m, MaskId::post_colour) = mask(m, MaskId::ground);
+    mask(m, MaskId::scratch) = work_.masks.scratch.words;
     m.rays = rays_;
     m.line_widths = line_widths_;
-    m.thinning = {graph_.plane, masks_[static_cast<std::size_t>(MaskId::scratch)].words, thinning_marks_};
-    m.blob_search = blob_search_.memory();
-    m.blobs = blobs_;
+    m.subsample = subsample_memory(subsample_, work_.average);
+    m.blob_search = work_.roi.search.memory();
+    m.blobs = work_.roi.blobs;
     m.hull = hull_;
-    m.hull_scratch = hull_scratch_;
-    m.canny = {subsample_.scratch};  // frames are subsampled before their edges are looked for
-    m.graph = graph_.memory();
-    m.feature_work = &feature_work_;
+    m.hull_scratch = work_.roi.hull;
+    m.canny = work_.masks.canny.memory();
+    m.thinning = {work_.masks.thinning.columns, work_.masks.scratch.words, work_.masks.thinning.marks};
+    m.pieces = work_.pieces.memory();
+    m.graph = graph_memory(graph_, work_.graph);
+    m.feature_work = &work_.features.work;
+    m.edge_done = work_.features.edge_done;
     m.features = &features_;
     return m;
   }
@@ -44,26 +48,22 @@ class PipelineStorage {
   using Slot = Yuv420Image<W, H>;
   static Yuv420Samples samples(Slot& slot) { return {slot.y.samples, slot.cb.samples, slot.cr.samples}; }
 
+  static std::span<BitWord>& mask(PipelineMemory& m, MaskId id) { return m.masks[static_cast<std::size_t>(id)]; }
+
   std::array<Slot, static_cast<std::size_t>(Depth)> images_{};
-  SubsampleStorage<FrameWidth, W, static_cast<std::size_t>(canny_rows* canny_row_stride(W))> subsample_{};
-  static constexpr std::size_t stored_masks = mask_count - 1;
-  static_assert(static_cast<std::size_t>(MaskId::skeleton) == stored_masks, "the last one shares its memory");
-  std::array<BitImage<W, H>, stored_masks> masks_{};
+  std::array<BitImage<W, H>, stored_mask_count> masks_{};
   std::array<Vec3, static_cast<std::size_t>(ray_columns(W)) * static_cast<std::size_t>(ray_rows(H))> rays_{};
   std::array<LineWidth, static_cast<std::size_t>(ray_columns(W) - 1) * static_cast<std::size_t>(ray_rows(H) - 1)>
       line_widths_{};
-  std::array<BitWord, thinning_marks_size(W, H)> thinning_marks_{};
-  BlobStorage<W> blob_search_{};
-  std::array<Blob, 64> blobs_{};  // pieces of green, largest first kept: the field, boards, chairs, clothes
+  SubsampleTables<FrameWidth, W> subsample_{};
   std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_{};
-  std::array<GridPoint, static_cast<std::size_t>(max_hull_points(H)) + 1> hull_scratch_{};
-  GraphStorage<W, H> graph_{};
-  FeatureWork feature_work_{};
+  GraphProducts<W, H> graph_{};
   Features features_{};
+  StageWork<W, H, FrameWidth> work_{};
 };
 
 // The budget at 320x240.
-static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 804 * 1024);
-static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 480 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 4>) <= 688 * 1024);
+static_assert(sizeof(PipelineStorage<320, 240, 1>) <= 352 * 1024);
 
 }  // namespace touchline

@@ -3,6 +3,7 @@
 // follows from the width of a line there.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,18 @@ struct PieceMemory {
   std::span<std::uint16_t> pieces;  // 3 max_open_pieces(width)
   std::span<GridPoint> corners;     // 2 max_open_pieces(width)
   std::span<GridPoint> stack;       // bounds the pixels that wait while a piece is taken away
+};
+
+template <int W, int H>
+struct PieceStorage {
+  // A short piece is about as long as three lines are wide, so a hundred pixels; what waits of a blob is its rim. Only
+  // noise comes near the largest piece there may be, and then some of its pixels are left and counted.
+  static constexpr std::size_t max_waiting = std::size_t{W} * std::size_t{H} / 30;
+  std::array<std::uint16_t, 6 * max_skeleton_runs(W)> runs{};
+  std::array<std::uint16_t, 3 * max_open_pieces(W)> pieces{};
+  std::array<GridPoint, 2 * max_open_pieces(W)> corners{};
+  std::array<GridPoint, max_waiting> stack{};
+  [[nodiscard]] PieceMemory memory() { return {runs, pieces, corners, stack}; }
 };
 
 /// Removes from `skeleton` each 8-connected piece that extends over less than three line widths or less than `least_px`

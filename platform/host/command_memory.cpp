@@ -20,27 +20,27 @@ void row(std::ostream& out, const char* name, std::size_t bytes) {
 template <int W, int H, int Depth>
 void chain_rows(std::ostream& out, const char* title) {
   constexpr std::size_t vision = sizeof(PipelineStorage<W, H, Depth>) + sizeof(Pipeline);
-  // What a small board must have for all of it: well below 1 MiB and 640 KiB.
-  static_assert(W != 320 || Depth != 4 || vision + sizeof(Localizer) <= 900 * 1024);
-  static_assert(W != 320 || Depth != 1 || vision + sizeof(Localizer) <= 640 * 1024);
+  // What a small board must have for all of it.
+  static_assert(W != 320 || Depth != 4 || vision + sizeof(Localizer) <= 768 * 1024);
+  static_assert(W != 320 || Depth != 1 || vision + sizeof(Localizer) <= 448 * 1024);
+  using Work = StageWork<W, H, max_frame_width>;
   constexpr std::size_t fifo = sizeof(Yuv420Image<W, H>) * std::size_t{Depth};
-  constexpr std::size_t masks = sizeof(BitImage<W, H>) * (mask_count - 1);
+  constexpr std::size_t masks = sizeof(BitImage<W, H>) * stored_mask_count;
   constexpr std::size_t tables = (sizeof(Vec3) * static_cast<std::size_t>(ray_columns(W) * ray_rows(H))) +
                                  sizeof(LineWidth) * static_cast<std::size_t>((ray_columns(W) - 1) * (ray_rows(H) - 1));
-  constexpr std::size_t named =
-      fifo + masks + sizeof(GraphStorage<W, H>) + sizeof(FeatureWork) + sizeof(Features) + tables;
-  constexpr std::size_t particles = 2 * sizeof(ParticleStorage<max_particles>);
+  constexpr std::size_t named = fifo + masks + sizeof(GraphProducts<W, H>) + sizeof(Features) + sizeof(Work) + tables;
+  constexpr std::size_t particles = sizeof(ParticleStorage<max_particles>) + sizeof(ResamplingStorage<max_particles>);
   constexpr std::size_t loc_named = particles + sizeof(DistanceField) + sizeof(FeatureManager);
   out << title << "\n";
   row(out, "vision: FIFO, and the mean in it", fifo);
   row(out, "vision: masks", masks);
-  row(out, "vision: skeleton index, digestion, node graph", sizeof(GraphStorage<W, H>));
-  row(out, "vision: search for features", sizeof(FeatureWork));
+  row(out, "vision: node graph", sizeof(GraphProducts<W, H>));
   row(out, "vision: features", sizeof(Features));
   row(out, "vision: rays of the lens, line widths", tables);
-  row(out, "vision: rows, blobs, hull, the rest", vision - named);
+  row(out, "vision: what one stage at a time works in", sizeof(Work));
+  row(out, "vision: hull, lens, configuration, the rest", vision - named);
   row(out, "vision, whole state", vision);
-  row(out, "localization: particles, two sets", particles);
+  row(out, "localization: particles, and to resample them", particles);
   row(out, "localization: distances to the field's lines", sizeof(DistanceField));
   row(out, "localization: feature manager", sizeof(FeatureManager));
   row(out, "localization: observation, modes, the rest", sizeof(Localizer) - loc_named);

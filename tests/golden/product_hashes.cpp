@@ -92,7 +92,7 @@ std::uint64_t hash_graph(const NodeGraphView& graph) {
     for (int i = 0; i < node.degree; ++i) hasher.add(node.edge[i]);
   }
   for (const GraphEdge& edge : graph.edges) {
-    hasher.add_all(edge.node_a, edge.node_b, edge.point_count);
+    hasher.add_all(edge.node_a, edge.node_b, std::uint32_t{edge.point_count});
     for (const GridPoint& p : graph.polyline(edge)) hasher.add(p);
   }
   return hasher.value();

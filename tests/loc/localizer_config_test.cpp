@@ -175,11 +175,11 @@ TEST_CASE("a pose that odometry carries far off the field is none, and the next 
 
 TEST_CASE("weights and shares that are no number spoil nothing else") {
   ParticleStorage<4> cloud;
-  ParticleStorage<4> scratch;
+  ResamplingStorage<4> work;
   for (std::size_t i = 0; i < 4; ++i) cloud.x[i] = static_cast<float>(i);
   cloud.log_weight = {nan, infinite, 0.0F, -100.0F};
   Rng rng(1);
-  resample_low_variance(cloud.view(4), 4, scratch.view(4), rng);
+  resample_low_variance(cloud.view(4), 4, work.memory(), rng);
   for (const float x : cloud.x) CHECK(x == 2.0F);
   CHECK(part_of(200, nan) == 0);
   CHECK(part_of(200, -1.0F) == 0);

@@ -24,24 +24,30 @@ struct SubsampleMemory {
 inline constexpr int subsample_lanes = 8;  // of a vector
 constexpr int whole_lanes(int columns) { return (columns + subsample_lanes - 1) / subsample_lanes * subsample_lanes; }
 
-/// Storage for frames of up to FrameWidth and working images of up to WorkWidth columns.
-/// `LeastScratch`: samples of scratch that somebody else wants to use between two frames.
-template <int FrameWidth, int WorkWidth, std::size_t LeastScratch = 0>
+/// Storage for frames of up to FrameWidth and working images of up to WorkWidth columns: what has to stay,
+template <int FrameWidth, int WorkWidth>
+struct SubsampleTables {
+  std::array<std::uint16_t, std::size_t{WorkWidth}> first_column{};
+  std::array<std::uint16_t, 2 * std::size_t{WorkWidth} + std::size_t{FrameWidth}> weights{};
+};
+/// and what need not.
+template <int FrameWidth, int WorkWidth>
+struct SubsampleRows {
+  std::array<std::uint16_t, 3 * std::size_t{FrameWidth} + std::size_t{subsample_lanes}> column_sums{};
+  std::array<std::uint8_t, 3 * std::size_t{FrameWidth}> unpacked{};
+  std::array<std::uint16_t, 10 * std::size_t{whole_lanes(WorkWidth)}> work_rows{};
+};
+template <int FrameWidth, int WorkWidth>
+SubsampleMemory subsample_memory(SubsampleTables<FrameWidth, WorkWidth>& tables,
+                                 SubsampleRows<FrameWidth, WorkWidth>& rows) {
+  return {tables.first_column, tables.weights, rows.column_sums, rows.unpacked, rows.work_rows};
+}
+/// Both.
+template <int FrameWidth, int WorkWidth>
 struct SubsampleStorage {
-  static constexpr std::size_t frame = static_cast<std::size_t>(FrameWidth);
-  static constexpr std::size_t work = static_cast<std::size_t>(WorkWidth);
-  std::array<std::uint16_t, work> first_column{};
-  std::array<std::uint16_t, 2 * work + frame> weights{};
-  static constexpr std::size_t sums = 3 * frame + static_cast<std::size_t>(subsample_lanes);
-  static constexpr std::size_t rows = 10 * static_cast<std::size_t>(whole_lanes(WorkWidth));
-  std::array<std::uint8_t, 3 * frame> unpacked{};
-  std::array<std::uint16_t, (sums + rows > LeastScratch ? sums + rows : LeastScratch)>
-      scratch{};  // nothing stays in it
-
-  [[nodiscard]] SubsampleMemory memory() {
-    const std::span<std::uint16_t> all = scratch;
-    return {first_column, weights, all.first(sums), unpacked, all.subspan(sums)};
-  }
+  SubsampleTables<FrameWidth, WorkWidth> tables;
+  SubsampleRows<FrameWidth, WorkWidth> rows;
+  [[nodiscard]] SubsampleMemory memory() { return subsample_memory(tables, rows); }
 };
 
 /// One axis of the area weighting. Source pixel i covers start(i)..start(i + 1), working pixel o covers

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "vision/image/bit_image.h"
@@ -32,6 +33,13 @@ constexpr int thinning_marks(int height) { return words_for((height + thinning_b
 constexpr std::size_t thinning_marks_size(int width, int height) {
   return static_cast<std::size_t>(4 * words_for(width) * thinning_marks(height));
 }
+
+/// Storage of all but `deleted`, for which any mask of that size will do.
+template <int W, int H>
+struct ThinningStorage {
+  std::array<BitWord, thinning_columns_size(W, H)> columns{};
+  std::array<BitWord, thinning_marks_size(W, H)> marks{};
+};
 
 /// Passes (two an iteration) that thin() makes at most: a blob loses a layer an iteration, so half the shorter side is
 /// usual. Diagonals of width two are eaten from their ends, a pixel an iteration, which is what the longer bound is
