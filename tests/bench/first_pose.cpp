@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "loc/localizer.h"
+#include "platform/processor/fastest_kernels.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"
 
@@ -24,10 +25,13 @@ int main(int argc, char** argv) {
   Lens lens;
   Field field;
   Pipeline pipeline(storage.memory());
+  VisionConfig vision;
+  vision.kernels = fastest_kernels();
+  LocalizerConfig localization;
+  localization.kernels = fastest_loc_kernels();
   const LensParameters fisheye{.focal_px = 232.9F, .cx = 376.0F, .cy = 240.0F, .max_theta = radians(92.5F)};
   if (Lens::create(fisheye, lens) != Status::ok || Field::create(*field_preset("small-2026"), field) != Status::ok ||
-      pipeline.configure(VisionConfig{}, lens) != Status::ok ||
-      localizer.configure(LocalizerConfig{}, field) != Status::ok) {
+      pipeline.configure(vision, lens) != Status::ok || localizer.configure(localization, field) != Status::ok) {
     return 1;
   }
   (void)localizer.reset(Prior{}, 1);
