@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of touchline's core in one header: vision from the camera's frame to features, localization from features to
-// pose.
+// pose, and the kernels that suit the processor.
 #pragma once
 
 // 201709: what compilers say that had not all of C++20 yet.
@@ -10,5 +10,6 @@
 
 #include "loc/known_junctions.h"
 #include "loc/localizer.h"
+#include "platform/processor/fastest_kernels.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"

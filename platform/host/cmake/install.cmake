@@ -31,7 +31,7 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/touchline.pc.in ${PROJECT_BINARY_DIR}/t
 install(FILES ${PROJECT_BINARY_DIR}/touchline.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 # The tree as it is, so that "vision/pipeline.h" means the same file for us and for the user.
-foreach(room platform/core platform/robot vision loc)
+foreach(room platform/core platform/processor platform/robot vision loc)
   get_filename_component(parent ${room} DIRECTORY)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline/${parent}
     FILES_MATCHING PATTERN "*.h")

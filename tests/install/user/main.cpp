@@ -13,10 +13,14 @@ int main() {
   Lens lens;
   Field field;
   Pipeline pipeline(storage.memory());
+  VisionConfig vision;
+  LocalizerConfig localization;
+  vision.kernels = fastest_kernels();  // the widest vectors that this processor has
+  localization.kernels = fastest_loc_kernels();
   const LensParameters fisheye{.focal_px = 232.9F, .cx = 376.0F, .cy = 240.0F, .max_theta = radians(92.5F)};
   if (Lens::create(fisheye, lens) != Status::ok || Field::create(*field_preset("small-2026"), field) != Status::ok ||
-      pipeline.configure(VisionConfig{}, lens) != Status::ok ||
-      localizer.configure(LocalizerConfig{}, field) != Status::ok || localizer.reset(Prior{}, 1) != Status::ok) {
+      pipeline.configure(vision, lens) != Status::ok || localizer.configure(localization, field) != Status::ok ||
+      localizer.reset(Prior{}, 1) != Status::ok) {
     return 1;
   }
 
