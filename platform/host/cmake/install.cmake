@@ -36,7 +36,7 @@ foreach(room platform/core platform/processor platform/robot vision loc)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline/${parent}
     FILES_MATCHING PATTERN "*.h")
 endforeach()
-install(FILES ${PROJECT_SOURCE_DIR}/loc/touchline.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline)
+install(FILES ${PROJECT_SOURCE_DIR}/platform/touchline.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/hal DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchline
   FILES_MATCHING PATTERN "*.h" PATTERN "linux" EXCLUDE)
 if(TARGET touchline)
