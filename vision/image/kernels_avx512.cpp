@@ -24,7 +24,7 @@
 #include "vision/image/join_squares_avx512.h"
 #include "vision/image/luma_bands_avx512.h"
 #include "vision/image/mean_rows_loops.h"
-#include "vision/image/ridge_search_loops.h"
+#include "vision/image/ridge_search_avx512.h"
 #include "vision/image/thinning_loops.h"
 #include "vision/line_probe_loops.h"
 #include "vision/probe_moments_avx512.h"
@@ -36,7 +36,7 @@ Kernels avx512_kernels() {
       .name = "avx512",
       .halve_frame = halve_avx512::halve_frame,
       .mean_of_four = mean_rows::mean_of_four,
-      .find_ridges = ridge::find_ridges,
+      .find_ridges = ridge_avx512::find_ridges,
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
       .join_squares = squares_avx512::join_squares,

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "vision/image/ridge_search.h"
+#include "vision/image/ridge_reaches_loops.h"
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -15,9 +15,7 @@ namespace touchline {
 namespace {
 namespace ridge {
 
-#if defined(__AVX512BW__)
-inline constexpr int lanes = 32;
-#elif defined(__AVX2__)
+#if defined(__AVX2__)
 inline constexpr int lanes = 16;
 #else
 inline constexpr int lanes = 8;
@@ -25,9 +23,6 @@ inline constexpr int lanes = 8;
 using I16 = std::int16_t __attribute__((vector_size(2 * lanes)));
 using U8 = std::uint8_t __attribute__((vector_size(lanes)));
 
-/// A column of the image is `column_px` wide, four blocks of the width table; a strip of it has as many rows as those.
-inline constexpr int column_px = 32;
-inline constexpr int strip_rows = width_block_px;
 /// A bit a pixel of a strip's row, row by row; and the same in the window: from `margin_px` to the left of the column
 /// to as many to its right.
 using Rows = std::uint32_t __attribute__((vector_size(32)));
@@ -37,9 +32,7 @@ inline constexpr int window_px = column_px + 2 * margin_px;
 static_assert(margin_px >= max_ridge_reach_px && window_px == 64);
 
 [[gnu::always_inline]] inline I16 load_bytes(const std::uint8_t* from) {
-#if defined(__AVX512BW__)
-  return reinterpret_cast<I16>(_mm512_cvtepu8_epi16(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(from))));
-#elif defined(__AVX2__)
+#if defined(__AVX2__)
   return reinterpret_cast<I16>(_mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from))));
 #elif defined(__SSE2__)
   return reinterpret_cast<I16>(
@@ -97,11 +90,7 @@ template <typename Operation>
 }
 
 /// A bit a pixel where it is larger than a number.
-#if defined(__AVX512BW__)
-[[gnu::always_inline]] inline std::uint32_t bits_above(const Pixels& v, std::int16_t least) {
-  return _mm512_cmpgt_epi16_mask(reinterpret_cast<__m512i>(v.part[0]), _mm512_set1_epi16(least));
-}
-#elif defined(__AVX2__)
+#if defined(__AVX2__)
 [[gnu::always_inline]] inline std::uint32_t bits_above(const Pixels& v, std::int16_t least) {
   const __m256i bytes =
       _mm256_packs_epi16(reinterpret_cast<__m256i>(v.part[0] > least), reinterpret_cast<__m256i>(v.part[1] > least));
@@ -130,16 +119,9 @@ template <typename Operation>
 #endif
 /// The same of eight rows. Not by way of memory: what is stored in parts and loaded as a whole has to wait.
 [[gnu::always_inline]] inline Rows bits_above(const Pixels (&rows)[strip_rows], std::int16_t least) {
-#if defined(__AVX512BW__)
-  const auto pair = [&](int r) __attribute__((always_inline)) {
-    return static_cast<long long>(_mm512_kunpackd(bits_above(rows[r + 1], least), bits_above(rows[r], least)));
-  };
-  return reinterpret_cast<Rows>(_mm256_set_epi64x(pair(6), pair(4), pair(2), pair(0)));
-#else
   return Rows{bits_above(rows[0], least), bits_above(rows[1], least), bits_above(rows[2], least),
               bits_above(rows[3], least), bits_above(rows[4], least), bits_above(rows[5], least),
               bits_above(rows[6], least), bits_above(rows[7], least)};
-#endif
 }
 
 }  // namespace ridge

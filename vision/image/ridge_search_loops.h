@@ -49,19 +49,14 @@ class Column {
   }
 
  private:
-  /// The reaches of the four blocks of a strip.
-  struct Looks {
-    std::uint32_t row = 0, column = 0;  // of all blocks
-    Reaches of_block;
-    /// The pixels whose block has a reach; `first`: 0 along the row, 32 along the column.
-    [[nodiscard]] [[gnu::always_inline]] std::uint32_t pixels(int reach, int first) const {
-      using Bytes = std::uint8_t __attribute__((vector_size(8)));
-      const Bytes bytes = __builtin_convertvector((of_block >> static_cast<std::uint32_t>(reach) & 1U) * 255U, Bytes);
-      std::uint64_t bits = 0;
-      __builtin_memcpy(&bits, &bytes, sizeof bytes);
-      return static_cast<std::uint32_t>(bits >> first);
-    }
-  };
+  /// The pixels whose block has a reach; `first`: 0 along the row, 32 along the column.
+  [[nodiscard]] [[gnu::always_inline]] static std::uint32_t pixels_of(const Reaches& of_block, int reach, int first) {
+    using Bytes = std::uint8_t __attribute__((vector_size(8)));
+    const Bytes bytes = __builtin_convertvector((of_block >> static_cast<std::uint32_t>(reach) & 1U) * 255U, Bytes);
+    std::uint64_t bits = 0;
+    __builtin_memcpy(&bits, &bytes, sizeof bytes);
+    return static_cast<std::uint32_t>(bits >> first);
+  }
 
   template <typename Mask>
   [[gnu::always_inline]] auto* bytes_at(const Mask& mask, int y) const {
@@ -91,7 +86,7 @@ class Column {
       any |= open[r];
     }
     if (any == 0) return;
-    const Looks looks = looks_at(y0 / width_block_px);
+    const Looks looks = looks_at(s_.widths, x0_ / width_block_px, y0 / width_block_px);
     if ((looks.row | looks.column) == 0) return;
     keep_green(y0);
     Rows wanted;
@@ -104,34 +99,6 @@ class Column {
       add_pixels(s_.weak, y0 + r, found.weak[r]);
       add_pixels(s_.strong, y0 + r, found.strong[r]);
     }
-  }
-
-  [[nodiscard]] Looks looks_at(int block_y) const {
-    constexpr int blocks = column_px / width_block_px;
-    using U16x16 = std::uint16_t __attribute__((vector_size(32)));
-    static_assert(sizeof(LineWidth) == 3 * sizeof(std::uint16_t));
-    LineWidth widths[blocks] = {};
-    const int block_x = x0_ / width_block_px;
-    const int left = s_.widths.width - block_x;
-    const LineWidth* from = s_.widths.data + std::ptrdiff_t{s_.widths.stride} * block_y + block_x;
-    U16x16 v{};
-    // With what follows in the memory: a vector that is made of parts has to wait for them.
-    const std::ptrdiff_t behind = std::ptrdiff_t{s_.widths.stride} * (s_.widths.height - 1 - block_y) + left;
-    if (left >= blocks && behind * static_cast<std::ptrdiff_t>(sizeof(LineWidth)) >= std::ptrdiff_t{sizeof v}) {
-      __builtin_memcpy(&v, from, sizeof v);
-    } else {
-      for (int i = 0; i < (left < blocks ? left : blocks); ++i) widths[i] = from[i];
-      __builtin_memcpy(&v, widths, sizeof widths);
-    }
-    const auto across = __builtin_shufflevector(v, v, 0, 3, 6, 9, 1, 4, 7, 10);
-    const auto slanted = __builtin_shufflevector(v, v, 2, 5, 8, 11, 2, 5, 8, 11);
-    Looks looks;
-    looks.of_block = reaches_of(__builtin_convertvector(across, Reaches), __builtin_convertvector(slanted, Reaches));
-    for (int i = 0; i < blocks; ++i) {
-      looks.row |= looks.of_block[i];
-      looks.column |= looks.of_block[blocks + i];
-    }
-    return looks;
   }
 
   /// Calls keep(y) for the rows of a strip's surroundings that are not kept yet.
@@ -211,7 +178,7 @@ class Column {
     Bright bright;
     for (std::uint32_t left = looks.row; left != 0; left &= left - 1) {
       const int reach = first_bit(left);
-      const Rows open = wanted & looks.pixels(reach, 0) & middle_of(green << reach & green >> reach);
+      const Rows open = wanted & pixels_of(looks.of_block, reach, 0) & middle_of(green << reach & green >> reach);
       const auto bars = [&](int r) __attribute__((always_inline)) {
         const std::int16_t* middle = &sums.bar[r][margin_px];
         return larger(Pixels(middle - reach), Pixels(middle + reach));
@@ -229,7 +196,8 @@ class Column {
     Bright bright;
     for (std::uint32_t left = looks.column; left != 0; left &= left - 1) {
       const int reach = first_bit(left);
-      const Rows open = wanted & looks.pixels(reach, 32) & middle_of(green_from(y0 - reach) & green_from(y0 + reach));
+      const Rows open =
+          wanted & pixels_of(looks.of_block, reach, 32) & middle_of(green_from(y0 - reach) & green_from(y0 + reach));
       const auto bars = [&](int r) __attribute__((always_inline)) {
         return larger(Pixels(across_.bar[at(y0 + r - reach)]), Pixels(across_.bar[at(y0 + r + reach)]));
       };
@@ -267,10 +235,10 @@ class Column {
     keep_colours(y0);
     const std::ptrdiff_t stride = s_.image.y.stride;
     const std::uint8_t* luma = s_.image.y.data + stride * y0 + x0_;
-    std::ptrdiff_t steps[Bright::max_looks];
+    std::ptrdiff_t steps[max_looks];
     for (int k = 0; k < bright.looks; ++k) steps[k] = AlongRow ? bright.reach[k] : bright.reach[k] * stride;
     std::uint32_t weak[strip_rows] = {}, strong[strip_rows] = {};
-    std::uint32_t strong_looks[Bright::max_looks * strip_rows];
+    std::uint32_t strong_looks[max_looks * strip_rows];
     __builtin_memcpy(strong_looks, bright.strong, sizeof strong_looks);
     bright.left[bright.count] = 0;
     const std::uint32_t* next = bright.left;
