@@ -43,13 +43,18 @@ void mean_row(const Rows& rows, int frames, int width, std::uint8_t* out) {
 
 void mean_plane(std::span<const Yuv420View> frames, Plane plane, const MeanOfFour& mean_of_four,
                 const ImageView<std::uint8_t>& out) {
-  for (int y = 0; y < out.height; ++y) {
+  // Rows without gaps between them, which is the usual thing, are one long row.
+  const bool in_one_piece =
+      std::all_of(frames.begin(), frames.end(), [&](const Yuv420View& f) { return (f.*plane).stride == out.width; }) &&
+      out.stride == out.width;
+  const int width = in_one_piece ? out.width * out.height : out.width;
+  for (int y = 0; y < (in_one_piece ? 1 : out.height); ++y) {
     Rows rows{};
     for (std::size_t i = 0; i < frames.size(); ++i) rows[i] = (frames[i].*plane).row(y);
     if (frames.size() == 4 && mean_of_four != nullptr) {
-      mean_of_four(rows.data(), out.width, out.row(y));
+      mean_of_four(rows.data(), width, out.row(y));
     } else {
-      mean_row(rows, static_cast<int>(frames.size()), out.width, out.row(y));
+      mean_row(rows, static_cast<int>(frames.size()), width, out.row(y));
     }
   }
 }
