@@ -13,6 +13,7 @@
 #include "vision/image/luma_bands.h"
 #include "vision/image/moments.h"
 #include "vision/image/ridge_search.h"
+#include "vision/image/same_size.h"
 #include "vision/image/thinning_pass.h"
 #include "vision/line_probe.h"
 
@@ -46,7 +47,8 @@ struct BlockRow;
 struct Kernels {
   const char* name = nullptr;
   void (*halve_frame)(const HalvedFrame& frame) = nullptr;  // null: not offered
-  MeanOfFour mean_of_four = nullptr;                        // null: not offered
+  ChangeRows change_rows = nullptr;
+  MeanOfFour mean_of_four = nullptr;  // null: not offered
   void (*find_ridges)(const RidgeSearch& search) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;

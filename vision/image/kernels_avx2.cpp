@@ -6,6 +6,7 @@
 #if defined(__x86_64__) && defined(__AVX2__)
 #include "vision/image/block_widths_loops.h"
 #include "vision/image/carpet_rows_loops.h"
+#include "vision/image/change_rows_loops.h"
 #include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/half_level_loops.h"
@@ -23,6 +24,7 @@ Kernels avx2_kernels() {
   return {
       .name = "avx2",
       .halve_frame = halve_avx2::halve_frame,
+      .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands_avx2::hsv_rows,

@@ -17,6 +17,7 @@
 #endif
 #include "vision/image/block_widths_loops.h"
 #include "vision/image/carpet_rows_avx512.h"
+#include "vision/image/change_rows_loops.h"
 #include "vision/image/count_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/half_level_loops.h"
@@ -35,6 +36,7 @@ Kernels avx512_kernels() {
   return {
       .name = "avx512",
       .halve_frame = halve_avx512::halve_frame,
+      .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge_avx512::find_ridges,
       .hsv_rows = bands_avx512::hsv_rows,

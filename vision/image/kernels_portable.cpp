@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/image/carpet_rows_loops.h"
 #include "vision/image/carpet_rows_words.h"
+#include "vision/image/change_rows_loops.h"
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/half_level_loops.h"
 #include "vision/image/kernels.h"
@@ -18,6 +19,7 @@ Kernels portable_kernels() {
   return {
       .name = "portable",
       .halve_frame = nullptr,
+      .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
       .hsv_rows = bands::hsv_rows,
@@ -37,6 +39,7 @@ Kernels word_kernels() {
   return {
       .name = "words",
       .halve_frame = nullptr,
+      .change_rows = change_rows::run,
       .mean_of_four = nullptr,
       .find_ridges = ridge_words::find_ridges,
       .hsv_rows = band_words::hsv_rows,

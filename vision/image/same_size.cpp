@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "vision/image/colour_matrix.h"
+#include "vision/image/unpack.h"
 #include "vision/image/word_lanes.h"
 
 namespace touchline {
@@ -78,6 +78,21 @@ void stretch_yuyv(const FrameView& frame, const Yuv420View& out) {
       cb[x / 2] = static_cast<std::uint8_t>(blue(chroma & 0xFFFFU));
       cr[x / 2] = static_cast<std::uint8_t>(red(chroma >> 16U));
     }
+  }
+}
+
+void change_frame(const FrameView& frame, ChangeRows change, std::span<std::uint8_t> buffer, const Yuv420View& out) {
+  RowPair rows;
+  rows.columns = frame.width;
+  rows.matrix = colour_matrix(frame.format);
+  for (int y = 0; y < frame.height; y += 2) {
+    for (int r = 0; r < 2; ++r) {
+      rows.source[r] = unpack_row(frame, y + r, buffer.data() + std::ptrdiff_t{3} * frame.width * r);
+      rows.y[r] = out.y.row(y + r);
+    }
+    rows.cb = out.cb.row(y / 2);
+    rows.cr = out.cr.row(y / 2);
+    change(rows);
   }
 }
 

@@ -221,6 +221,7 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   period_ = pairs ? period : 0;
   set_weights();
   kernels_ = fits_kernels(kernels) ? kernels : Kernels{};
+  change_rows_ = kernels.change_rows;
   if (kernels_.halve_frame != nullptr) set_kernel_weights();
   configured_ = true;
   return Status::ok;
@@ -298,6 +299,15 @@ void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) cons
   kernels_.halve_frame(halved);
 }
 
+void Subsampler::keep_size(const FrameView& frame, const Yuv420View& out) const {
+  if (frame.format == PixelFormat::yuyv) {
+    stretch_yuyv(frame, out);
+    return;
+  }
+  const std::span<std::uint16_t> sums = memory_.column_sums;  // room for two rows that are unpacked
+  change_frame(frame, change_rows_, {reinterpret_cast<std::uint8_t*>(sums.data()), 2 * sums.size()}, out);
+}
+
 /// Rows 0 and 1 are working rows; row -1, in place of the interleaved pixels, which are used up by then, takes chroma.
 Subsampler::Channels Subsampler::work_row(int index) const {
   const int columns = whole_lanes(horizontal_.target);
@@ -347,8 +357,8 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     return Status::invalid_argument;
   }
 
-  if (frame.format == PixelFormat::yuyv && frame.width == width && frame.height == height && height % 2 == 0) {
-    stretch_yuyv(frame, out);
+  if (frame.width == width && frame.height == height && width % 2 == 0 && height % 2 == 0) {
+    keep_size(frame, out);
     return Status::ok;
   }
   if (kernels_.halve_frame != nullptr && needs_no_unpacking(frame.format)) {

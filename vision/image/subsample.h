@@ -95,6 +95,7 @@ class Subsampler {
   void set_kernel_weights();
   [[nodiscard]] bool fits_kernels(const Kernels& kernels) const;
   void run_kernels(const FrameView& frame, const Yuv420View& out) const;
+  void keep_size(const FrameView& frame, const Yuv420View& out) const;
   [[nodiscard]] Channels work_row(int index) const;
   void make_work_row(const FrameView& frame, int y, const Channels& out);
 
@@ -105,7 +106,8 @@ class Subsampler {
   int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
   std::uint16_t scale_ = 0;  // from sums to 8.6 bit, in 1/65536
   Kernels kernels_;          // where they are used
-  bool wide_ = false;        // sums need 32 bit: the weights are rounded
+  ChangeRows change_rows_ = nullptr;
+  bool wide_ = false;  // sums need 32 bit: the weights are rounded
   bool configured_ = false;
 };
 

@@ -63,7 +63,9 @@ TEST_CASE("kernels subsample as the portable code does") {
                         {1280, 480, 320, 240},
                         {1128, 960, 480, 480},
                         {640, 480, 200, 240},
-                        {1280, 960, 640, 480}}) {
+                        {1280, 960, 640, 480},
+                        {320, 240, 320, 240},
+                        {86, 16, 86, 16}}) {
     for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24}) {
       const auto pixels = noise(static_cast<std::size_t>(s.width * s.height * 3), 4);
       const FrameView frame{format, pixels.data(), s.width, s.height, s.width * 3};

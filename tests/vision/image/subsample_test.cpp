@@ -209,6 +209,24 @@ TEST_CASE("YUYV of the working size gives what the general way gives of every pi
   }
 }
 
+TEST_CASE("other formats of the working size, too") {
+  constexpr int width = 78, height = 26;
+  for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24, PixelFormat::rgb565}) {
+    CAPTURE(static_cast<int>(format));
+    const int bytes = bytes_per_pixel(format);
+    Frame small(format, width, height);
+    fill_random(small, 12);
+    Frame large(format, 2 * width, 2 * height);
+    for (int y = 0; y < 2 * height; ++y) {
+      for (int i = 0; i < 2 * width * bytes; ++i) {
+        const int pixel = i / bytes;
+        large.byte(y, i) = small.byte(y / 2, pixel / 2 * bytes + i % bytes);
+      }
+    }
+    CHECK(subsample(small, width, height) == subsample(large, width, height));
+  }
+}
+
 TEST_CASE("bytes beyond the row are never looked at") {
   Frame tight(PixelFormat::rgb24, 33, 21, 0), padded(PixelFormat::rgb24, 33, 21, 40);
   fill_random(tight, 6);
