@@ -39,6 +39,8 @@ struct HalvedFrame {
   std::ptrdiff_t y_stride = 0, cb_stride = 0, cr_stride = 0;
 };
 
+using HalveFrame = void (*)(const HalvedFrame& frame);
+
 /// out = (a + b + c + d + 2) / 4 of four rows of samples.
 using MeanOfFour = void (*)(const std::uint8_t* const* rows, int width, std::uint8_t* out);
 
@@ -46,7 +48,7 @@ struct BlockRow;
 
 struct Kernels {
   const char* name = nullptr;
-  void (*halve_frame)(const HalvedFrame& frame) = nullptr;  // null: not offered
+  HalveFrame halve_frame = nullptr;  // null: not offered
   ChangeRows change_rows = nullptr;
   MeanOfFour mean_of_four = nullptr;  // null: not offered
   void (*find_ridges)(const RidgeSearch& search) = nullptr;

@@ -220,9 +220,9 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
                      static_cast<std::size_t>(period * taps_ * pixel_lanes) <= memory_.weights.size();
   period_ = pairs ? period : 0;
   set_weights();
-  kernels_ = fits_kernels(kernels) ? kernels : Kernels{};
+  halve_frame_ = fits_kernels(kernels) ? kernels.halve_frame : nullptr;
   change_rows_ = kernels.change_rows;
-  if (kernels_.halve_frame != nullptr) set_kernel_weights();
+  if (halve_frame_ != nullptr) set_kernel_weights();
   configured_ = true;
   return Status::ok;
 }
@@ -296,7 +296,7 @@ void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) cons
   halved.y_stride = out.y.stride;
   halved.cb_stride = out.cb.stride;
   halved.cr_stride = out.cr.stride;
-  kernels_.halve_frame(halved);
+  halve_frame_(halved);
 }
 
 void Subsampler::keep_size(const FrameView& frame, const Yuv420View& out) const {
@@ -361,7 +361,7 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     keep_size(frame, out);
     return Status::ok;
   }
-  if (kernels_.halve_frame != nullptr && needs_no_unpacking(frame.format)) {
+  if (halve_frame_ != nullptr && needs_no_unpacking(frame.format)) {
     run_kernels(frame, out);
     return Status::ok;
   }

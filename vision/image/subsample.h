@@ -104,8 +104,8 @@ class Subsampler {
   AreaAxis vertical_;
   int taps_ = 0;    // most source columns that a working column needs
   int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
-  std::uint16_t scale_ = 0;  // from sums to 8.6 bit, in 1/65536
-  Kernels kernels_;          // where they are used
+  std::uint16_t scale_ = 0;           // from sums to 8.6 bit, in 1/65536
+  HalveFrame halve_frame_ = nullptr;  // where the sizes fit it
   ChangeRows change_rows_ = nullptr;
   bool wide_ = false;  // sums need 32 bit: the weights are rounded
   bool configured_ = false;
