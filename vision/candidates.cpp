@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "vision/image/bit_ops.h"
+#include "vision/image/morphology.h"
 
 namespace touchline {
 namespace {
@@ -65,7 +66,17 @@ CannyThresholds edge_thresholds(const CarpetModel& carpet) {
   return {low, 2 * low};
 }
 
-void find_edge_zone(ConstBitView white, ConstBitView region, ConstBitView lines, BitView zone) {
+void find_edge_zone(ConstBitView white, ConstBitView region, ConstBitView lines, BitView zone, const Kernels& kernels) {
+  if (kernels.join_squares != nullptr) {  // whole rows, whatever is in them
+    copy(lines, zone);
+    dilate(zone, 3, kernels.join_squares);
+    invert(zone);
+    and_with(zone, white);
+    and_with(zone, region);
+    dilate(zone, 2 * zone_px + 1, kernels.join_squares);
+    and_with(zone, region);
+    return;
+  }
   clear(zone);
   for (int y = 0; y < zone.height; ++y) {
     for (int i = 0; i < words_for(zone.width); ++i) {

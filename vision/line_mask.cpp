@@ -156,16 +156,19 @@ bool grow_row(ConstBitView white, ConstBitView before, int y, BitView lines) {
 void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitView scratch, const Kernels& kernels) {
   assert(lines.width <= max_mask_width);
   mark_below_half_level(luma, lines, scratch, kernels);
-  for (int pass = 0; pass < 2; ++pass) trim_border(scratch, lines);
+  for (int pass = 0; pass < 2; ++pass) {
+    if (kernels.trim_border == nullptr || !kernels.trim_border(scratch, lines)) trim_border(scratch, lines);
+  }
 }
 
-void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch) {
+void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch, const Kernels& kernels) {
   assert(lines.width <= max_mask_width && lines.height <= max_mask_height);
   constexpr int max_steps = 16;  // half of a line of 32 px: nearer than a robot's own feet
   std::array<std::uint8_t, max_mask_height / width_block_px> steps{};  // of each row of blocks
   for (int i = 0; i < widths.height; ++i) {
     steps[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(widest(widths, i) / 32, max_steps));
   }
+  if (kernels.grow_rows != nullptr && kernels.grow_rows(white, steps.data(), width_block_px, lines)) return;
   // Only rows beside one that has changed can gain: where a step finds nothing, the next one finds nothing.
   int first = 0, end = lines.height;
   for (int step = 1; step <= max_steps && first < end; ++step) {

@@ -17,7 +17,8 @@ void trim_to_half_level(ImageView<const std::uint8_t> luma, BitView lines, BitVi
 
 /// Lets `lines` grow inside `white` by half a line's width: fills the crossings of lines, which are wider than a line,
 /// and the rest of a line that the picture's border cuts. `scratch` has the same size.
-void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch);
+void grow_into_white(ConstBitView white, LineWidthView widths, BitView lines, BitView scratch,
+                     const Kernels& kernels = portable_kernels());
 
 /// The paper's dilation and erosion (section IV-C), sides in pixels: joins both edges of a line and closes its breaks.
 /// What they add and has the carpet's colour is taken out again: two lines that meet at a sharp angle, or run a pixel

@@ -169,7 +169,7 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& edges = views_.mask(MaskId::edges);
   // An edge beside a line that is found already adds nothing. The line mask is made later: its memory is free.
   const BitView& zone = views_.mask(MaskId::line_mask);
-  find_edge_zone(views_.mask(MaskId::white), roi, candidates, zone);
+  find_edge_zone(views_.mask(MaskId::white), roi, candidates, zone, config_.kernels);
   const GrowResult grown = find_edges(result.mean.y, zone, edge_thresholds(carpet_), memory_.canny,
                                       views_.mask(MaskId::scratch), edges, config_.kernels);
   result.counts.dropped_edge_seeds = (ridges.finished ? 0 : 1) + (grown.finished ? 0 : 1);
@@ -187,7 +187,7 @@ void Pipeline::make_line_mask(VisionResult& result) {
   const BitView& white = views_.mask(MaskId::white);
   copy(views_.mask(MaskId::candidates), lines);
   and_with(white, views_.mask(MaskId::roi));
-  grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch));
+  grow_into_white(white, result.line_widths, lines, views_.mask(MaskId::scratch), config_.kernels);
   trim_to_half_level(result.mean.y, lines, views_.mask(MaskId::scratch), config_.kernels);
   close_lines(views_.mask(MaskId::green), scaled(config_.line_dilate_px), scaled(config_.line_erode_px), lines,
               views_.mask(MaskId::scratch), config_.kernels);

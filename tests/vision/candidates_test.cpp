@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "tests/support/kernel_tables.h"
 #include "tests/vision/drawn_carpet.h"
 
 using namespace touchline;
@@ -101,16 +102,19 @@ TEST_CASE("edges are looked for within four pixels of white of the region that n
     const auto open = [&](int x, int y) {
       return white.view().get(x, y) && region.view().get(x, y) && !any_near(x, y, 1, line);
     };
-    Bits zone(w, h);
-    fill(zone.view());  // nothing of it stays
-    find_edge_zone(white.view(), region.view(), lines.view(), zone.view());
-    for (int y = 0; y < h; ++y) {
-      for (int x = 0; x < w; ++x) {
-        CAPTURE(x);
-        CAPTURE(y);
-        REQUIRE(zone.view().get(x, y) == (region.view().get(x, y) && any_near(x, y, 4, open)));
+    for (const Kernels& kernels : test::all_tables()) {
+      CAPTURE(kernels.name);
+      Bits zone(w, h);
+      fill(zone.view());  // nothing of it stays
+      find_edge_zone(white.view(), region.view(), lines.view(), zone.view(), kernels);
+      for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+          CAPTURE(x);
+          CAPTURE(y);
+          REQUIRE(zone.view().get(x, y) == (region.view().get(x, y) && any_near(x, y, 4, open)));
+        }
       }
+      CHECK(padding_is_clear(zone.view()));
     }
-    CHECK(padding_is_clear(zone.view()));
   }
 }

@@ -97,11 +97,15 @@ TEST_CASE("lines grow in white by half of their width, row of blocks by row of b
       }
       const Bits white = test::random_bits(w, height, percent, seed);
       const Bits before = test::random_bits(w, height, 1, seed + 100);
-      Bits after = before;
-      Bits scratch = test::random_bits(w, height, 50, seed + 1);
-      grow_into_white(white.view(), {widths.data(), columns, rows, columns}, after.view(), scratch.view());
-      REQUIRE(ascii(after) == ascii(plainly_grown(white, widths, columns, before)));
-      grown += count(after.view()) - count(before.view());
+      const auto expected = ascii(plainly_grown(white, widths, columns, before));
+      for (const Kernels& kernels : test::all_tables()) {
+        CAPTURE(kernels.name);
+        Bits after = before;
+        Bits scratch = test::random_bits(w, height, 50, seed + 1);
+        grow_into_white(white.view(), {widths.data(), columns, rows, columns}, after.view(), scratch.view(), kernels);
+        REQUIRE(ascii(after) == expected);
+        grown += count(after.view()) - count(before.view());
+      }
     }
   }
   CHECK(grown > 1000);

@@ -54,8 +54,13 @@ struct Kernels {
   void (*find_ridges)(const RidgeSearch& search) = nullptr;
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
-  bool (*join_squares)(BitView mask, bool dilate, int passes) = nullptr;  // null: not offered (morphology.h)
-  void (*block_widths)(const BlockRow& row) = nullptr;                    // null: not offered
+  // Of masks, whole rows at once. False: not for masks as wide as these, and nothing was changed. Null: not offered.
+  bool (*join_squares)(BitView mask, bool dilate, int passes) = nullptr;  // (morphology.h)
+  /// Adds to `mask` the pixels of `inside` beside its own, step by step: as many steps as row y / rows_a_number says.
+  bool (*grow_rows)(ConstBitView inside, const std::uint8_t* steps_of_rows, int rows_a_number, BitView mask) = nullptr;
+  /// Takes off `mask` the pixels that are `loose` and lack a neighbour in their row or column.
+  bool (*trim_border)(ConstBitView loose, BitView mask) = nullptr;
+  void (*block_widths)(const BlockRow& row) = nullptr;  // null: not offered
   CarpetKernels carpet;
   EdgeKernels edges;                                                               // none: not offered
   void (*window_moments)(const MomentWindow& window, Moments& moments) = nullptr;  // null: not offered

@@ -30,6 +30,8 @@ Kernels avx2_kernels() {
       .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
       .join_squares = nullptr,
+      .grow_rows = nullptr,
+      .trim_border = nullptr,
       .block_widths = block_widths::measure,
       .carpet = carpet::kernels(),
       .edges = edge_rows::kernels(),

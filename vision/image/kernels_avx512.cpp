@@ -22,8 +22,8 @@
 #include "vision/image/edge_rows_loops.h"
 #include "vision/image/half_level_loops.h"
 #include "vision/image/halve_rows_avx512.h"
-#include "vision/image/join_squares_avx512.h"
 #include "vision/image/luma_bands_avx512.h"
+#include "vision/image/mask_rows_avx512.h"
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_search_avx512.h"
 #include "vision/image/thinning_loops.h"
@@ -41,7 +41,9 @@ Kernels avx512_kernels() {
       .find_ridges = ridge_avx512::find_ridges,
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
-      .join_squares = squares_avx512::join_squares,
+      .join_squares = mask_avx512::join_squares,
+      .grow_rows = mask_avx512::grow_rows,
+      .trim_border = mask_avx512::trim_border,
       .block_widths = block_widths::measure,
       .carpet = carpet_avx512::kernels(),
       .edges = edge_rows::kernels(),
