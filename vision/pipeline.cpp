@@ -125,9 +125,8 @@ void Pipeline::find_green_stage(VisionResult& result) {
   find_white(result.mean, ground, carpet_, views_.mask(MaskId::white), config_.kernels);
   // What is white between green belongs to the field, or a wide line would cut it in two.
   const BitView& candidates = views_.mask(MaskId::candidates);
-  clear(candidates);
   const SpanCounts spans = find_white_spans(result.mean, views_.mask(MaskId::green), views_.mask(MaskId::white),
-                                            result.line_widths, carpet_, candidates);
+                                            result.line_widths, carpet_, candidates, config_.kernels);
   result.counts.rejected_candidates = {spans.too_wide, spans.too_thin, spans.not_white, spans.not_bright};
   const BitView& clean = views_.mask(MaskId::clean_green);
   copy(views_.mask(MaskId::green), clean);

@@ -16,19 +16,10 @@
 
 namespace touchline {
 
-/// Gaps in the green that were looked at, and why they are no line.
-struct SpanCounts {
-  int found = 0;
-  int too_wide = 0;    // wider than a line can look there
-  int too_thin = 0;    // narrower than half a line
-  int not_white = 0;   // less than half of the gap's pixels are white
-  int not_bright = 0;  // not brighter than the green beside it: a shadow, a dark foot
-};
-
-/// Adds to `lines` every gap between two green pixels of a row or a column that is as wide as a line can be there,
+/// Sets `lines` to every gap between two green pixels of a row or a column that is as wide as a line can be there,
 /// mostly white, and brighter than both ends.
 SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, ConstBitView white, LineWidthView widths,
-                            const CarpetModel& carpet, BitView lines);
+                            const CarpetModel& carpet, BitView lines, const Kernels& kernels = portable_kernels());
 
 /// Adds to `lines` the pixels of `roi` that stand out from the green on both sides, along the row or along the column,
 /// by three times the noise; and those that stand out by half of that and hang together with such a one, or with a line

@@ -69,7 +69,7 @@ int count_row(ConstBitView mask, int y, int first, int end) {
   return total;
 }
 
-struct SpanSearch {
+struct GapSearch {
   const ConstYuv420View& image;
   ConstBitView green;
   ConstBitView white;
@@ -105,7 +105,7 @@ bool too_wide_for_slope(int length, const ExtentBySlope& extent, OtherExtent oth
   return extent.wider_at(std::min(length, other), other);
 }
 
-void close_row_gap(SpanSearch& search, int y, int first, int end) {
+void close_row_gap(GapSearch& search, int y, int first, int end) {
   const LineWidth& expected = width_at(search.widths, (first + end) / 2, y);
   const Gap gap{search.image.y.row(y) + first,         1, end - first, first, search.green.width - end,
                 count_row(search.white, y, first, end)};
@@ -118,7 +118,7 @@ void close_row_gap(SpanSearch& search, int y, int first, int end) {
   if (count_verdict(verdict, search.counts)) set_span(search.lines, y, first, end - 1, true);
 }
 
-void search_row(SpanSearch& search, int y) {
+void search_row(GapSearch& search, int y) {
   const int words = words_for(search.green.width);
   const BitWord* row = search.green.row(y);
   int gap_begin = -1;
@@ -165,7 +165,7 @@ void set_column(BitView mask, int x, int first, int end) {
   }
 }
 
-void close_column_gap(SpanSearch& search, int x, int first, int end) {
+void close_column_gap(GapSearch& search, int x, int first, int end) {
   const LineWidth& expected = width_at(search.widths, x, (first + end) / 2);
   if (end - first > with_tolerance(expected.slanted)) {  // before the white pixels are counted one by one
     ++search.counts.too_wide;
@@ -187,7 +187,7 @@ void close_column_gap(SpanSearch& search, int x, int first, int end) {
 }
 
 /// All columns at once: only where green begins or ends from one row to the next there is something to do.
-void search_columns(SpanSearch& search) {
+void search_columns(GapSearch& search) {
   std::array<std::int16_t, max_mask_width> gap_begin{};
   gap_begin.fill(-1);
   const int words = words_for(search.green.width);
@@ -208,12 +208,35 @@ void search_columns(SpanSearch& search) {
   }
 }
 
+SpanSearch search_by_kernel(const GapSearch& search) {
+  SpanSearch s;
+  s.luma = search.image.y.data;
+  s.green = search.green.words;
+  s.white = search.white.words;
+  s.lines = search.lines.words;
+  s.widths = search.widths.data;
+  s.luma_stride = search.image.y.stride;
+  s.green_stride = search.green.stride;
+  s.white_stride = search.white.stride;
+  s.lines_stride = search.lines.stride;
+  s.widths_stride = search.widths.stride;
+  s.width = search.green.width;
+  s.height = search.green.height;
+  s.least_excess = search.carpet.noise / 8 + 1;
+  return s;
+}
+
 }  // namespace
 
 SpanCounts find_white_spans(const ConstYuv420View& image, ConstBitView green, ConstBitView white, LineWidthView widths,
-                            const CarpetModel& carpet, BitView lines) {
-  SpanSearch search{image, green, white, widths, carpet, lines, {}};
-  if (carpet.samples == 0) return search.counts;
+                            const CarpetModel& carpet, BitView lines, const Kernels& kernels) {
+  clear(lines);
+  if (carpet.samples == 0) return {};
+  GapSearch search{image, green, white, widths, carpet, lines, {}};
+  if (kernels.find_spans != nullptr && green.width >= 4) {
+    kernels.find_spans(search_by_kernel(search), search.counts);
+    return search.counts;
+  }
   for (int y = 0; y < green.height; ++y) search_row(search, y);
   search_columns(search);
   return search.counts;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/core/rng.h"
+#include "tests/support/kernel_tables.h"
 #include "tests/vision/drawn_carpet.h"
 #include "vision/line_mask.h"
 
@@ -124,4 +126,85 @@ TEST_CASE("the mask's border is trimmed to where the luma is nearer to the line'
   CHECK(d.lines.view().get(19, 11));
   CHECK_FALSE(d.lines.view().get(14, 11));
   CHECK_FALSE(d.lines.view().get(21, 11));
+}
+
+namespace {
+
+/// Gaps of all lengths in noise, some of them longer than a word, between widths of which some are as large.
+struct NoisyGaps {
+  int w, h;
+  std::vector<std::uint8_t> y;
+  Bits green, white;
+  std::vector<LineWidth> widths;
+  CarpetModel carpet;
+
+  NoisyGaps(int width, int height, std::uint64_t seed) : w(width), h(height), green(w, h), white(w, h) {
+    Rng rng(seed);
+    for (int i = 0; i < w * h; ++i) y.push_back(static_cast<std::uint8_t>(rng.below(60)));
+    fill(green.view());
+    for (int i = 0; i < w * h / 150 + 2; ++i) add_hole(rng);
+    for (int i = 0; i < (w + 7) / 8 * ((h + 7) / 8); ++i) {
+      const std::uint32_t base = rng.below(8) == 0 ? 2000 : 20 + rng.below(100);
+      const auto some = [&] { return static_cast<std::uint16_t>(base + rng.below(base)); };
+      widths.push_back(rng.below(10) == 0 ? LineWidth{} : LineWidth{some(), some(), some()});
+    }
+    carpet.samples = 1;
+    carpet.noise = static_cast<std::int32_t>(rng.below(40));
+  }
+  void add_hole(Rng& rng) {
+    const auto below = [&](int n) { return static_cast<int>(rng.below(static_cast<std::uint32_t>(n))); };
+    const bool is_long = below(10) == 0;
+    const int left = below(w), top = below(h);
+    const int right = left + below(is_long ? 120 : 10), bottom = top + below(is_long ? 8 : 10);
+    const bool is_bright = below(4) != 0;
+    for (int v = top; v <= std::min(bottom, h - 1); ++v) {
+      set_span(green.view(), v, left, right, false);
+      for (int u = left; u <= std::min(right, w - 1); ++u) {
+        white.view().set(u, v, below(4) != 0);
+        if (is_bright) y[static_cast<std::size_t>(v * w + u)] = static_cast<std::uint8_t>(60 + below(190));
+      }
+    }
+  }
+  SpanCounts spans(BitView lines, const Kernels& kernels) const {
+    ConstYuv420View image;
+    image.y = {y.data(), w, h, w};
+    const int columns = (w + 7) / 8;
+    return find_white_spans(image, green.view(), white.view(), {widths.data(), columns, (h + 7) / 8, columns}, carpet,
+                            lines, kernels);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every table of kernels finds the same spans, and for the same reasons no others") {
+  SpanCounts all;
+  for (const int width : {4, 60, 64, 130, 320, 1280}) {
+    for (const int height : {1, 7, 90}) {
+      for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const NoisyGaps gaps(width, height, seed);
+        Bits expected(width, height), lines(width, height);
+        const SpanCounts counts = gaps.spans(expected.view(), portable_kernels());
+        all.found += counts.found;
+        all.too_wide += counts.too_wide;
+        all.too_thin += counts.too_thin;
+        all.not_white += counts.not_white;
+        all.not_bright += counts.not_bright;
+        for (const Kernels& kernels : runnable_tables()) {
+          CAPTURE(kernels.name);
+          CAPTURE(width);
+          CAPTURE(height);
+          CAPTURE(seed);
+          fill(lines.view());  // what was there before does not count
+          const SpanCounts found = gaps.spans(lines.view(), kernels);
+          CHECK(found.found == counts.found);
+          CHECK(found.too_wide == counts.too_wide);
+          CHECK(found.too_thin == counts.too_thin);
+          CHECK(found.not_white == counts.not_white);
+          CHECK(found.not_bright == counts.not_bright);
+          REQUIRE(equal(lines.view(), expected.view()));
+        }
+      }
+    }
+  }
+  for (const int some : {all.found, all.too_wide, all.too_thin, all.not_white, all.not_bright}) CHECK(some > 1000);
 }

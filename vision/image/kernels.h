@@ -16,6 +16,7 @@
 #include "vision/image/same_size.h"
 #include "vision/image/thinning_pass.h"
 #include "vision/line_probe.h"
+#include "vision/white_span_search.h"
 
 namespace touchline {
 
@@ -52,6 +53,7 @@ struct Kernels {
   ChangeRows change_rows = nullptr;
   MeanOfFour mean_of_four = nullptr;  // null: not offered
   void (*find_ridges)(const RidgeSearch& search) = nullptr;
+  void (*find_spans)(const SpanSearch& search, SpanCounts& counts) = nullptr;  // null: not offered
   void (*hsv_rows)(const HsvBandPlan& plan, const BandRows& rows) = nullptr;
   void (*white_rows)(const CarpetLimits& limits, const BandRows& rows) = nullptr;
   // Of masks, whole rows at once. False: not for masks as wide as these, and nothing was changed. Null: not offered.
@@ -82,7 +84,7 @@ struct Kernels {
 /// For x86-64 with AVX2; without a name where this build has none. The caller makes sure that the processor has the
 /// instructions (platform/processor).
 [[nodiscard]] Kernels avx2_kernels();
-/// Likewise with AVX-512, of it F, BW, DQ, VL, VBMI and VNNI.
+/// Likewise with AVX-512, of it F, BW, DQ, VL, VBMI, VBMI2 and VNNI.
 [[nodiscard]] Kernels avx512_kernels();
 
 }  // namespace touchline

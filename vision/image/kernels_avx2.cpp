@@ -27,6 +27,7 @@ Kernels avx2_kernels() {
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
+      .find_spans = nullptr,
       .hsv_rows = bands_avx2::hsv_rows,
       .white_rows = bands::white_rows,
       .join_squares = nullptr,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels for x86-64 with AVX-512: F, BW, DQ, VL, VBMI and VNNI. This file alone is compiled for it: nothing here may
-// be inlined elsewhere, and no inline function of a header may be called, or the linker could hand its copy to those
-// that run on older processors.
+// Kernels for x86-64 with AVX-512: F, BW, DQ, VL, VBMI, VBMI2 and VNNI. This file alone is compiled for it: nothing
+// here may be inlined elsewhere, and no inline function of a header may be called, or the linker could hand its copy to
+// those that run on older processors.
 #include "vision/image/kernels.h"
 
 #if defined(__x86_64__) && defined(__AVX512F__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && \
-    defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VNNI__)
+    defined(__AVX512VL__) && defined(__AVX512VBMI__) && defined(__AVX512VBMI2__) && defined(__AVX512VNNI__)
 // Without optimisation g++'s gathers are macros, whose conversions are warned of where they are used.
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 #if !defined(__clang__)  // g++ 12 finds them in its own header (bug 105593)
@@ -29,6 +29,7 @@
 #include "vision/image/thinning_loops.h"
 #include "vision/line_probe_loops.h"
 #include "vision/probe_moments_avx512.h"
+#include "vision/white_spans_avx512.h"
 
 namespace touchline {
 
@@ -39,6 +40,7 @@ Kernels avx512_kernels() {
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge_avx512::find_ridges,
+      .find_spans = spans_avx512::find_spans,
       .hsv_rows = bands_avx512::hsv_rows,
       .white_rows = bands_avx512::white_rows,
       .join_squares = mask_avx512::join_squares,
