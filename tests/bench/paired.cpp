@@ -66,6 +66,12 @@ const std::vector<StageGroup>& groups() {
        "group: from the mean to the line mask"},
       {"thinning", {Stage::thinning}, {PairedStage::thinning}, "ours: short pieces removed too"},
       {"digestion", {Stage::digestion}, {PairedStage::digestion}, "OpenCV has none: plain loops over its matrices"},
+      {"average..digestion",
+       {Stage::average, Stage::green, Stage::roi, Stage::candidates, Stage::line_mask, Stage::thinning,
+        Stage::digestion},
+       {PairedStage::average, PairedStage::green, PairedStage::roi, PairedStage::candidates, PairedStage::line_mask,
+        PairedStage::thinning, PairedStage::digestion},
+       "group: the steps that both sides have, from the frame to the major nodes"},
   };
   return all;
 }
