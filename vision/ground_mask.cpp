@@ -14,9 +14,9 @@ namespace touchline {
 namespace {
 
 constexpr float steepness_scale = 16384.0F;  // 2^14: a sine fits int16 with room
-constexpr std::int32_t no_ray = -32768;
+constexpr std::int16_t no_ray = -32768;
 
-using CornerRow = std::array<std::int32_t, RayRow::capacity>;
+using CornerRow = std::array<std::int16_t, RayRow::capacity>;
 
 /// How steeply the rays of one grid row look down: minus the sine of their elevation, in 2^-14.
 void steepness_of_row(const RayGridView& grid, int row, const Vec3& up, CornerRow& out) {
@@ -29,28 +29,28 @@ void steepness_of_row(const RayGridView& grid, int row, const Vec3& up, CornerRo
     const float z = rays.z[i];
     const std::int32_t any = x * x + y * y + z * z > 0.0F ? -1 : 0;
     const auto steepness = static_cast<std::int32_t>(-(x * up.x + y * up.y + z * up.z) * steepness_scale);
-    out[i] = (steepness & any) | (no_ray & ~any);
+    out[i] = static_cast<std::int16_t>((steepness & any) | (no_ray & ~any));
   }
 }
 
 /// A row of cells.
 struct Cells {
   static constexpr std::size_t capacity = static_cast<std::size_t>(words_for(max_mask_width)) * sizeof(BitWord);
-  std::array<std::uint8_t, capacity> whole;             // 255: steep at all corners; as a row of the mask, too
-  std::array<std::uint8_t, RayRow::capacity> border{};  // not 0: steep at some, and a ray at each
+  std::array<std::uint8_t, capacity> whole;     // 255: steep at all corners; as a row of the mask, too
+  std::array<std::uint8_t, capacity> border{};  // 255: steep at some, and a ray at each
 };
 
 // By value: of references the compiler makes no vectors.
-std::int32_t least(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
-std::int32_t most(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+std::int16_t least(std::int16_t a, std::int16_t b) { return a < b ? a : b; }
+std::int16_t most(std::int16_t a, std::int16_t b) { return a > b ? a : b; }
 
-void classify(const CornerRow& above, const CornerRow& below, std::size_t cells, std::int32_t limit, Cells& out) {
+void classify(const CornerRow& above, const CornerRow& below, std::size_t cells, std::int16_t limit, Cells& out) {
   for (std::size_t i = 0; i < cells; ++i) {
-    const std::int32_t lower_end = least(least(above[i], above[i + 1]), least(below[i], below[i + 1]));
-    const std::int32_t upper_end = most(most(above[i], above[i + 1]), most(below[i], below[i + 1]));
-    const std::int32_t whole = lower_end > limit ? 255 : 0;
-    const std::int32_t some = upper_end > limit ? 255 : 0;
-    const std::int32_t rays = lower_end > no_ray ? 255 : 0;
+    const std::int16_t lower_end = least(least(above[i], above[i + 1]), least(below[i], below[i + 1]));
+    const std::int16_t upper_end = most(most(above[i], above[i + 1]), most(below[i], below[i + 1]));
+    const std::int16_t whole = lower_end > limit ? 255 : 0;
+    const std::int16_t some = upper_end > limit ? 255 : 0;
+    const std::int16_t rays = lower_end > no_ray ? 255 : 0;
     out.whole[i] = static_cast<std::uint8_t>(whole);
     out.border[i] = static_cast<std::uint8_t>(some & rays & ~whole);
   }
@@ -58,8 +58,8 @@ void classify(const CornerRow& above, const CornerRow& below, std::size_t cells,
 
 /// The cell right of corner `i`, a byte for each of its rows: by how much its pixels are steeper than the limit changes
 /// by the same amount from row to row.
-void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit, std::uint8_t* bytes,
-                 std::ptrdiff_t stride, int rows) {
+void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, std::int32_t limit,
+                 std::array<std::uint8_t, ray_cell_px>& bytes) {
   constexpr int half_px = 2 * ray_cell_px;  // a cell has 16 half pixels; the first centre is at the first
   const std::int32_t left = above[i] * (half_px - 1) + below[i];
   const std::int32_t right = above[i + 1] * (half_px - 1) + below[i + 1];
@@ -70,11 +70,22 @@ void draw_border(const CornerRow& above, const CornerRow& below, std::size_t i, 
     excess[k] = left * (half_px - across) + right * across - limit * (half_px * half_px);
     step[k] = 2 * ((below[i] - above[i]) * (half_px - across) + (below[i + 1] - above[i + 1]) * across);
   }
-  for (int y = 0; y < rows; ++y) {
+  for (std::uint8_t& byte : bytes) {
     std::int32_t bits = 0;
     for (int k = 0; k < ray_cell_px; ++k) bits += excess[k] > 0 ? 1 << k : 0;
     for (int k = 0; k < ray_cell_px; ++k) excess[k] += step[k];
-    bytes[y * stride] = static_cast<std::uint8_t>(bits);
+    byte = static_cast<std::uint8_t>(bits);
+  }
+}
+
+/// Calls visit(cell), eight cells at a time, of which most are none.
+template <typename Visit>
+void for_each_border(const Cells& row, std::size_t words, Visit visit) {
+  constexpr BitWord tops = 0x8080808080808080U;
+  for (std::size_t i = 0; i < words; ++i) {
+    BitWord eight = 0;
+    std::memcpy(&eight, row.border.data() + i * sizeof eight, sizeof eight);
+    for_each_bit(eight & tops, [&](int bit) { visit(i * sizeof eight + static_cast<std::size_t>(bit) / 8); });
   }
 }
 
@@ -84,7 +95,7 @@ void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max
                       BitView ground) {
   const Mat3 rotation = robot_from_camera(pose);
   const Vec3 up{rotation.m[2][0], rotation.m[2][1], rotation.m[2][2]};
-  const auto limit = static_cast<std::int32_t>(pose.height / math::hypot(pose.height, max_range_m) * steepness_scale);
+  const auto limit = static_cast<std::int16_t>(pose.height / math::hypot(pose.height, max_range_m) * steepness_scale);
   const auto cells = static_cast<std::size_t>(grid.columns - 1);
   const auto words = static_cast<std::size_t>(words_for(ground.width));
   std::array<CornerRow, 2> corners;
@@ -98,14 +109,21 @@ void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max
     steepness_of_row(grid, j + 1, up, below);
     classify(above, below, cells, limit, row);
     const int end = std::min(y0 + ray_cell_px, ground.height);
-    for (int y = y0; y < end; ++y) std::memcpy(ground.row(y), row.whole.data(), words * sizeof(BitWord));
-    for (std::size_t i = 0; i < cells; ++i) {
-      if (row.border[i] == 0) continue;
-      draw_border(above, below, i, limit, reinterpret_cast<std::uint8_t*>(ground.row(y0)) + i,
-                  ground.stride * std::ptrdiff_t{sizeof(BitWord)}, end - y0);
+    std::array<BitWord, words_for(max_mask_width)> whole;
+    std::memcpy(whole.data(), row.whole.data(), words * sizeof(BitWord));
+    for (int y = y0; y < end; ++y) {
+      for (std::size_t i = 0; i < words; ++i) ground.row(y)[i] = whole[i] & seen.row(y)[i];
     }
+    for_each_border(row, words, [&](std::size_t i) {
+      std::array<std::uint8_t, ray_cell_px> bytes;
+      draw_border(above, below, i, limit, bytes);
+      for (int y = y0; y < end; ++y) {
+        const auto inside = reinterpret_cast<const std::uint8_t*>(seen.row(y))[i];
+        const auto byte = bytes[static_cast<std::size_t>(y - y0)];
+        reinterpret_cast<std::uint8_t*>(ground.row(y))[i] = byte & inside;
+      }
+    });
   }
-  and_with(ground, seen);
 }
 
 }  // namespace touchline
