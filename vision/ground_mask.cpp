@@ -91,8 +91,9 @@ void for_each_border(const Cells& row, std::size_t words, Visit visit) {
 
 }  // namespace
 
-void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max_range_m, ConstBitView seen,
-                      BitView ground) {
+/// Not inlined: its memory is not to lie below that of the steps that follow.
+[[gnu::noinline]] void make_ground_mask(const RayGridView& grid, const CameraPose& pose, float max_range_m,
+                                        ConstBitView seen, BitView ground) {
   const Mat3 rotation = robot_from_camera(pose);
   const Vec3 up{rotation.m[2][0], rotation.m[2][1], rotation.m[2][2]};
   const auto limit = static_cast<std::int16_t>(pose.height / math::hypot(pose.height, max_range_m) * steepness_scale);
