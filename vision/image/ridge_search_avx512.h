@@ -24,7 +24,7 @@ using ridge::strip_rows;
 
 /// Rows that stay, each at its number modulo as many: a strip and the farthest steps above and below it.
 inline constexpr int kept_rows = 32;
-static_assert(kept_rows >= strip_rows + 2 * max_ridge_reach_px);
+static_assert(kept_rows >= strip_rows + 2 * max_ridge_reach_px && kept_rows % strip_rows == 0);
 /// The first of them come again behind the last, so that any eight in turn lie in one piece.
 inline constexpr int stored_rows = kept_rows + strip_rows;
 /// The window: from `margin_px` to the left of the column to as many to its right.
@@ -76,7 +76,7 @@ struct alignas(64) Colours {
 /// The search of 32 pixels of each row.
 class Column {
  public:
-  Column(const RidgeSearch& search, int x0) : s_(search), x0_(x0) {
+  Column(const RidgeSearch& search, int x0) : s_(search), x0_(x0), byte_(x0 / 8) {
     const int first = x0 < 1 ? 1 : 0;  // pixels at the border have no neighbour
     const int left = search.roi.width - x0;
     const int end = left - 1 < column_px ? left - 1 : column_px;
@@ -98,29 +98,43 @@ class Column {
   [[gnu::always_inline]] auto* bytes_at(const Mask& mask, int y) const {
     using Word = std::remove_reference_t<decltype(*mask.words)>;
     using Byte = std::conditional_t<std::is_const_v<Word>, const unsigned char, unsigned char>;
-    return reinterpret_cast<Byte*>(mask.words + std::ptrdiff_t{mask.stride} * y) + x0_ / 8;
+    return reinterpret_cast<Byte*>(mask.words + std::ptrdiff_t{mask.stride} * y) + byte_;
   }
+  /// The column's pixels in rows from y0 on.
+  template <typename Byte>
+  struct MaskRows {
+    Byte* first;
+    std::ptrdiff_t stride;
+    [[nodiscard]] [[gnu::always_inline]] std::uint32_t at(int r) const {
+      std::uint32_t bits = 0;
+      __builtin_memcpy(&bits, first + r * stride, sizeof bits);
+      return bits;
+    }
+    [[gnu::always_inline]] void add(int r, std::uint32_t pixels) const {
+      const std::uint32_t bits = at(r) | pixels;
+      __builtin_memcpy(first + r * stride, &bits, sizeof bits);
+    }
+  };
   template <typename Mask>
-  [[gnu::always_inline]] std::uint32_t pixels_at(const Mask& mask, int y) const {
-    std::uint32_t bits = 0;
-    __builtin_memcpy(&bits, bytes_at(mask, y), sizeof bits);
-    return bits;
-  }
-  [[gnu::always_inline]] void add_pixels(const BitView& mask, int y, std::uint32_t more) const {
-    const std::uint32_t bits = pixels_at(mask, y) | more;
-    __builtin_memcpy(bytes_at(mask, y), &bits, sizeof bits);
+  [[nodiscard]] [[gnu::always_inline]] auto rows_from(const Mask& mask, int y0) const {
+    return MaskRows<std::remove_pointer_t<decltype(bytes_at(mask, y0))>>{
+        bytes_at(mask, y0), mask.stride * static_cast<std::ptrdiff_t>(sizeof(BitWord))};
   }
 
   void search_strip(int y0) {
-    alignas(32) std::uint32_t wanted[strip_rows];
-    std::uint32_t any = 0;
-    for (int r = 0; r < strip_rows; ++r) {
-      const int y = y0 + r;
-      // What is a line already stays one.
-      const bool inside = y >= 1 && y + 1 < s_.roi.height;
-      wanted[r] = inside ? pixels_at(s_.roi, y) & ~pixels_at(s_.strong, y) & inner_ : 0;
-      any |= wanted[r];
+    // What is a line already stays one; pixels at the border have no neighbour.
+    const auto roi = rows_from(s_.roi, y0);
+    const auto lines = rows_from(s_.strong, y0);
+    const int first = y0 < 1 ? 1 : 0;
+    const int left = s_.roi.height - 1 - y0;
+    alignas(32) std::uint32_t wanted[strip_rows] = {};
+    if (first == 0 && left >= strip_rows) {
+      for (int r = 0; r < strip_rows; ++r) wanted[r] = roi.at(r) & ~lines.at(r) & inner_;
+    } else {
+      for (int r = first; r < left && r < strip_rows; ++r) wanted[r] = roi.at(r) & ~lines.at(r) & inner_;
     }
+    std::uint32_t any = 0;
+    for (const std::uint32_t row : wanted) any |= row;
     if (any == 0) return;
     const ridge::Looks reaches = ridge::looks_at(s_.widths, x0_ / width_block_px, y0 / width_block_px);
     if ((reaches.row | reaches.column) == 0) return;
@@ -166,12 +180,15 @@ class Column {
 
   /// The strip's sums down the column.
   void sum_down(int y0) {
+    const std::uint8_t* rows = luma_[kept(y0)];  // the strip's lie in one piece
+    const std::uint8_t* above = luma_[kept(y0 - 1)];
+    const std::uint8_t* under = luma_[kept(y0 + strip_rows)];
     for (int x = 0; x < window_px; x += column_px) {
       // a + 2 b + c is (a + b) + (b + c), and each pair serves two rows.
-      __m512i here = bytes_to_16(luma_[kept(y0)] + x);
-      __m512i pair = _mm512_add_epi16(bytes_to_16(luma_[kept(y0 - 1)] + x), here);
+      __m512i here = bytes_to_16(rows + x);
+      __m512i pair = _mm512_add_epi16(bytes_to_16(above + x), here);
       for (int r = 0; r < strip_rows; ++r) {
-        const __m512i below = bytes_to_16(luma_[kept(y0 + r + 1)] + x);
+        const __m512i below = bytes_to_16((r + 1 < strip_rows ? rows + (r + 1) * window_px : under) + x);
         const __m512i next = _mm512_add_epi16(here, below);
         _mm512_store_si512(down_[r] + x, _mm512_add_epi16(pair, next));
         here = below;
@@ -287,9 +304,11 @@ class Column {
       weak[row] |= found;
       strong[row] |= look.below(limit_of(look.here + row * look.pitch, strong_margin), row) & found;
     }
+    const auto all = rows_from(s_.weak, y0);
+    const auto lines = rows_from(s_.strong, y0);
     for (int r = 0; r < strip_rows && y0 + r < s_.roi.height; ++r) {
-      add_pixels(s_.weak, y0 + r, weak[r]);
-      add_pixels(s_.strong, y0 + r, strong[r]);
+      all.add(r, weak[r]);
+      lines.add(r, strong[r]);
     }
   }
   /// Chroma over luma, compared without a division: at least an eighth less green than a side, and not more of any
@@ -329,6 +348,7 @@ class Column {
   std::uint64_t green_[stored_rows];
   Look looks_[most_looks];
   int x0_;
+  std::ptrdiff_t byte_;                                   // of the masks' rows
   std::uint32_t inner_;                                   // pixels of the column, but for the image's border
   std::uint32_t inside_chroma_;                           // as inside_, of the samples of chroma
   int next_row_ = -kept_rows, next_colour_ = -kept_rows;  // the first that are not kept yet
