@@ -63,8 +63,8 @@ class PostFinder {
 
  private:
   void take(RayBatch& batch);
-  [[nodiscard]] PostWork::Bin& bin(int i) { return work_.bins[static_cast<std::size_t>(i % post_bins)]; }
-  [[nodiscard]] std::uint64_t filled(int i);
+  void fill_gaps();
+  static std::size_t bin(int i) { return static_cast<std::size_t>(i % post_bins); }
   [[nodiscard]] Column column(int i);
   /// Depression of the lower end of a level.
   [[nodiscard]] static float level_bottom(int level) { return lowest - static_cast<float>(level) * level_height; }
@@ -89,7 +89,8 @@ class PostFinder {
 
 /// Every pixel of the colour to its azimuth and elevation.
 void PostFinder::sort(ConstBitView colour) {
-  work_.bins.fill({});
+  work_.levels.fill(0);
+  work_.depression.fill(-2.0F);
   PixelRays rays(rays_);
   RayBatch batch;
   for_each_set_bit(colour, [&](int x, int y) {
@@ -99,6 +100,7 @@ void PostFinder::sort(ConstBitView colour) {
     if (batch.count == RayBatch::most) take(batch);
   });
   take(batch);
+  fill_gaps();
 }
 
 void PostFinder::take(RayBatch& batch) {
@@ -106,24 +108,29 @@ void PostFinder::take(RayBatch& batch) {
   for (int i = 0; i < batch.count; ++i) {
     const int level = batch.level[i];
     if (level < 0 || level >= post_levels) continue;
-    PostWork::Bin& b = bin(batch.bin[i]);
-    b.levels |= std::uint64_t{1} << level;
-    b.depression = math::max(b.depression, batch.depression[i]);
+    const std::size_t b = bin(batch.bin[i]);
+    work_.levels[b] |= std::uint64_t{1} << level;
+    work_.depression[b] = math::max(work_.depression[b], batch.depression[i]);
   }
   batch.count = 0;
 }
 
-/// A column with the gaps closed that come from pixels wider than a bin and levels finer than pixels.
-std::uint64_t PostFinder::filled(int i) {
-  const std::uint64_t own = bin(i).levels;
-  const std::uint64_t between = bin(i + post_bins - 1).levels & bin(i + 1).levels;
-  const std::uint64_t both = own | between;
-  return both | ((both << 1) & (both >> 1));
+/// Closes the gaps that come from pixels wider than a bin and levels finer than pixels.
+void PostFinder::fill_gaps() {
+  auto& levels = work_.levels;
+  const std::uint64_t first = levels.front();
+  std::uint64_t before = levels.back();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::uint64_t own = levels[i];
+    const std::uint64_t both = own | (before & (i + 1 < levels.size() ? levels[i + 1] : first));
+    levels[i] = both | ((both << 1) & (both >> 1));
+    before = own;
+  }
 }
 
 /// The unbroken run from the lowest pixel of a bin upwards.
 Column PostFinder::column(int i) {
-  const std::uint64_t levels = filled(i);
+  const std::uint64_t levels = work_.levels[bin(i)];
   if (levels == 0) return {};
   Column c;
   c.first = std::countr_zero(levels);
@@ -171,7 +178,7 @@ void PostFinder::judge(int first, int last) {
   float foot = -2.0F;
   int level = post_levels;
   for (int i = first; i <= last; ++i) {
-    foot = math::max(foot, bin(i).depression);
+    foot = math::max(foot, work_.depression[bin(i)]);
     const Column c = column(i);
     if (c.first < level) level = c.first;
   }
@@ -187,7 +194,7 @@ void PostFinder::judge(int first, int last) {
   if (top >= post_levels) top = post_levels - 1;
   float sum = 0.0F, weights = 0.0F;
   for (int i = first; i <= last; ++i) {
-    const std::uint64_t levels = filled(i);
+    const std::uint64_t levels = work_.levels[bin(i)];
     float w = 0.0F;
     for (int k = level; k <= top; ++k) w += ((levels >> k) & 1U) != 0 ? 1.0F : 0.0F;
     sum += w * (static_cast<float>(i) + 0.5F);

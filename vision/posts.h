@@ -26,13 +26,10 @@ struct PostParameters {
 inline constexpr int post_bins = 480;   // 0.75 degrees of azimuth each, a little more than a working pixel
 inline constexpr int post_levels = 64;  // of elevation, one bit each: 2 degrees
 
-/// Working memory.
+/// Working memory, by azimuth.
 struct PostWork {
-  struct Bin {
-    std::uint64_t levels = 0;  // bit 0 is the lowest elevation
-    float depression = -2.0F;  // of the lowest pixel, radians below the horizon
-  };
-  std::array<Bin, post_bins> bins{};
+  std::array<std::uint64_t, post_bins> levels{};  // bit 0 is the lowest elevation
+  std::array<float, post_bins> depression{};      // of the lowest pixel, radians below the horizon
 };
 
 /// `colour` has the pixels of the posts' colour. Fills `posts`; returns how many found no room.
