@@ -68,11 +68,18 @@ void CircleFinder::vote() {
   work_.votes.clear();
   const auto& points = lines_.points;
   const float chord = chord_radii * parameters_.radius_m;
+  constexpr float slack = 1.0e-5F;  // most distances are told without a root: much more than rounding
+  const float surely_near = (1.0F - slack) * chord * chord;
+  const float surely_far = (1.0F + slack) * chord * chord;
+  const auto is_near = [&](const GroundPoint& a, const GroundPoint& b) {
+    const float squared = math::square(a.x - b.x) + math::square(a.y - b.y);
+    return squared < surely_near || (squared <= surely_far && ground_distance(a, b) < chord);
+  };
   std::size_t k = 0;
   for (std::size_t i = 0; i < points.size(); i += vote_step) {
     if (k < i) k = i;
     while (k + 1 < points.size() && points[k + 1].chain == points[i].chain &&
-           ground_distance(points[k].ground, points[i].ground) < chord) {
+           is_near(points[k].ground, points[i].ground)) {
       ++k;
     }
     if (ground_distance(points[k].ground, points[i].ground) >= min_chord * chord) vote(i, (i + k) / 2, k);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vision/line_plane.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace touchline {
 namespace {
 
@@ -33,21 +36,23 @@ bool carpet_between(const WorkRays& rays, const FieldView& field, const GroundPo
   return bare > 1 && 3 * bare > steps;
 }
 
-/// Whether the gap between two parts of a line would be too long.
-bool surely_apart(const LineSegment& a, const LineSegment& b) {
+/// Whether two segments may be parts of one line, by their directions and by how far apart their ends are. Most pairs
+/// are not, and which are is hard to foresee: no branches.
+bool may_be_one(const LineSegment& a, const LineSegment& b) {
+  const float turn = math::abs(a.direction.x * b.direction.y - a.direction.y * b.direction.x);
   const float most = slack * slack * math::square(a.length + b.length + max_join_gap_m);
+  float farthest = 0.0F;
   for (const GroundPoint& p : a.end) {
     for (const GroundPoint& q : b.end) {
-      if (math::square(p.x - q.x) + math::square(p.y - q.y) > most) return true;
+      farthest = math::max(farthest, math::square(p.x - q.x) + math::square(p.y - q.y));
     }
   }
-  return false;
+  return (turn <= slack * sin_max_join_angle) & (farthest <= most);
 }
 
 /// Joins `b` to `a` when all four ends lie in one plane and the gap between is short.
 bool join(const WorkRays& rays, const FieldView& field, float line_width_m, LineSegment& a, const LineSegment& b) {
   const float turn = math::abs(a.direction.x * b.direction.y - a.direction.y * b.direction.x);
-  if (turn > slack * sin_max_join_angle || surely_apart(a, b)) return false;
   if (turn > math::sin(math::min(join_angle + a.sigma + b.sigma, max_join_angle))) return false;
   // The longest way between an end of one and an end of the other is the joined line.
   float longest = 0.0F;
@@ -110,14 +115,27 @@ bool measure_segment(const WorkRays& rays, float line_width_m, const Vec3& first
 
 void join_segments(const WorkRays& rays, const FieldView& field, float line_width_m, LineSegments& lines) {
   auto& segments = lines.segments;
+  // Joins segment i with the first one that it can be joined with; that one's place is filled by the last.
+  const auto grow = [&](std::size_t& i) {
+    for (std::size_t first = 0; first < segments.size(); first += bits_per_word) {
+      const std::size_t end = std::min(first + bits_per_word, segments.size());
+      BitWord candidates = 0;
+      for (std::size_t k = first; k < end; ++k) {
+        candidates |= BitWord{may_be_one(segments[i], segments[k])} << (k - first);
+      }
+      for (; candidates != 0; candidates &= candidates - 1) {
+        const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(candidates));
+        if (k == i || !join(rays, field, line_width_m, segments[i], segments[k])) continue;
+        segments[k] = segments.back();
+        segments.pop_back();
+        if (i == segments.size()) i = k;
+        return true;
+      }
+    }
+    return false;
+  };
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    for (std::size_t k = 0; k < segments.size(); ++k) {
-      if (k == i || !join(rays, field, line_width_m, segments[i], segments[k])) continue;
-      segments[k] = segments.back();
-      segments.pop_back();
-      // The grown segment may now reach others; each join takes one away, so this ends.
-      if (i == segments.size()) i = k;
-      k = static_cast<std::size_t>(-1);
+    while (grow(i)) {  // the grown segment may now reach others; each join takes one away, so this ends
     }
   }
 }
