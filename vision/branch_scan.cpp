@@ -65,6 +65,7 @@ class BranchScan {
   static constexpr std::size_t max_fences = RayLanes::most / 2;
   using Fences = std::array<Fence, max_fences>;
   [[nodiscard]] Fences fences_at(std::span<const Knot> knots, const Side& side) const;
+  [[nodiscard]] bool in_picture(const WorkPoint& p) const;
   [[nodiscard]] bool none_white(const Fence& a, const Fence& b) const;
   [[nodiscard]] float white_part(const Fence& a, const Fence& b, float f, float least) const;
   [[nodiscard]] bool dark_beside(float t, const Side& side) const;
@@ -156,15 +157,18 @@ BranchScan::Fences BranchScan::fences_at(std::span<const Knot> knots, const Side
   return fences;
 }
 
+constexpr float slack = 0.01F;  // px, for rounding
+
+/// Surely: so is then what lies between two such points.
+bool BranchScan::in_picture(const WorkPoint& p) const {
+  return p.u >= slack && p.v >= slack && p.u < static_cast<float>(search_.rays.work_width()) - slack &&
+         p.v < static_cast<float>(search_.rays.work_height()) - slack;
+}
+
 /// Whether no way between two fences can be white enough, told by a look at the box around their outer quarter: most
 /// lines have carpet beside them. A way of n samples has n / 4 or more of them there, and a fifth is too much.
 bool BranchScan::none_white(const Fence& a, const Fence& b) const {
-  constexpr float slack = 0.01F;  // px, for rounding
-  const auto inside = [&](const WorkPoint& p) {
-    return p.u >= slack && p.v >= slack && p.u < static_cast<float>(search_.rays.work_width()) - slack &&
-           p.v < static_cast<float>(search_.rays.work_height()) - slack;
-  };
-  if (!inside(a.from) || !inside(a.to) || !inside(b.from) || !inside(b.to)) return false;
+  if (!in_picture(a.from) || !in_picture(a.to) || !in_picture(b.from) || !in_picture(b.to)) return false;
   const WorkPoint c = between(a.from, a.to, 0.75F);
   const WorkPoint d = between(b.from, b.to, 0.75F);
   const float left = math::min(math::min(a.to.u, b.to.u), math::min(c.u, d.u));
@@ -184,9 +188,19 @@ float BranchScan::white_part(const Fence& a, const Fence& b, float f, float leas
   const int steps = static_cast<int>(math::clamp(apart + 0.5F, 2.0F, 64.0F));
   const auto all = static_cast<float>(steps + 1);
   const int most_dark = static_cast<int>((1.001F - least) * all);
+  const auto part = [&](int i) { return between(from, to, static_cast<float>(i) / static_cast<float>(steps)); };
+  if (in_picture(from) && in_picture(to)) {  // from its outer end on, where most ways are dark
+    int dark = 0;
+    for (int i = steps; i >= 0; --i) {
+      const WorkPoint p = part(i);
+      dark += search_.field.lines.get(static_cast<int>(p.u), static_cast<int>(p.v)) ? 0 : 1;
+      if (dark > most_dark) return 0.0F;
+    }
+    return static_cast<float>(steps + 1 - dark) / all;
+  }
   int white = 0, inside = 0;
   for (int i = 0; i <= steps; ++i, ++inside) {
-    const WorkPoint p = between(from, to, static_cast<float>(i) / static_cast<float>(steps));
+    const WorkPoint p = part(i);
     if (!(p.u >= 0.0F && p.v >= 0.0F)) break;
     const int column = static_cast<int>(p.u), row = static_cast<int>(p.v);
     if (column >= search_.rays.work_width() || row >= search_.rays.work_height()) break;

@@ -111,20 +111,18 @@ bool any_set(ConstBitView mask, int first_x, int first_y, int last_x, int last_y
   assert(first_x >= 0 && first_x <= last_x && last_x < mask.width);
   const int first_word = first_x / bits_per_word;
   const int last_word = last_x / bits_per_word;
-  const BitWord left = ~BitWord{0} << (first_x % bits_per_word);
-  const BitWord right = ~BitWord{0} >> (bits_per_word - 1 - last_x % bits_per_word);
+  // All rows are looked at: where the first pixel lies is hard to foresee.
+  BitWord in_first = 0, between = 0, in_last = 0;
   for (int y = first_y; y <= last_y; ++y) {
     const BitWord* row = mask.row(y);
-    BitWord found = row[last_word] & right;
-    if (first_word == last_word) {
-      found &= left;
-    } else {
-      found |= row[first_word] & left;
-      for (int i = first_word + 1; i < last_word; ++i) found |= row[i];
-    }
-    if (found != 0) return true;
+    in_first |= row[first_word];
+    in_last |= row[last_word];
+    for (int i = first_word + 1; i < last_word; ++i) between |= row[i];
   }
-  return false;
+  const BitWord left = ~BitWord{0} << (first_x % bits_per_word);
+  const BitWord right = ~BitWord{0} >> (bits_per_word - 1 - last_x % bits_per_word);
+  if (first_word == last_word) return (in_first & left & right) != 0;
+  return ((in_first & left) | between | (in_last & right)) != 0;
 }
 
 void set_span(BitView mask, int y, int first, int last, bool value) {
