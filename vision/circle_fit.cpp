@@ -7,6 +7,8 @@ namespace touchline {
 namespace {
 
 constexpr int refinements = 6;
+constexpr float settled_m =
+    1.0e-4F;                         // a step this short says nothing: a working pixel is twenty times as long and more
 constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
 constexpr float rag_widths = 0.15F;  // and what the ragged edge of a wide line adds
 constexpr float slack_radii = 0.2F;  // a refinement seldom moves a centre farther
@@ -114,7 +116,7 @@ bool CircleFit::refine(GroundPoint& centre, Sym2& information, float& chi) const
     centre.x += (sums.bx * information.yy - sums.by * information.xy) / det;
     centre.y += (sums.by * information.xx - sums.bx * information.xy) / det;
     chi = math::sqrt(sums.squares / sums.count);
-    if (centre.x == before.x && centre.y == before.y) break;  // the next step would say the same
+    if (ground_distance(centre, before) < settled_m) break;
   }
   return true;
 }
