@@ -218,16 +218,16 @@ void add_edges_of_word(const EdgeInput& input, const Place& at, BitWord edges, B
   const Steps steps = left != 0 ? steps_to_bright_side(input, at, left) : Steps{};
   const BitWord on_green = any(steps & reversed(green));
   const BitWord before_white = on_green & any(steps & white);
-  counts.without_green += bits_set(nowhere | (left & ~on_green));
-  counts.without_white += bits_set(everywhere | (on_green & ~before_white));
+  counts.without_green += bits_set_in_one(nowhere | (left & ~on_green));
+  counts.without_white += bits_set_in_one(everywhere | (on_green & ~before_white));
   if (before_white == 0) return;
 
   const Steps bounds = steps & before_white;
   const Steps found = {lines_in_row(input, at, bounds.left, -1), lines_in_row(input, at, bounds.right, 1),
                        lines_in_columns(input, at, bounds.above, -1), lines_in_columns(input, at, bounds.below, 1)};
   const BitWord taken = any(found);
-  counts.taken += bits_set(taken);
-  counts.of_wide += bits_set(before_white & ~taken);
+  counts.taken += bits_set_in_one(taken);
+  counts.of_wide += bits_set_in_one(before_white & ~taken);
   // What is added changes what the next ones see.
   for_each_bit(taken & ~any(found & near_bits<2>(lines, at)), [&](int bit) {
     const BitWord flag = BitWord{1} << bit;

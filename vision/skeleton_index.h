@@ -79,7 +79,7 @@ inline PixelIndex SkeletonIndex::number_of(int x, int y) const {
   const BitWord below = (BitWord{1} << (column % bits_per_word)) - 1;
   const int w = y * words_for(skeleton_.width) + static_cast<int>(column / bits_per_word);
   const BitWord word = skeleton_.row(y)[column / bits_per_word];
-  return static_cast<PixelIndex>(memory_.pixels_before[static_cast<std::size_t>(w)] + bits_set(word & below));
+  return static_cast<PixelIndex>(memory_.pixels_before[static_cast<std::size_t>(w)] + bits_set_in_one(word & below));
 }
 
 inline PixelIndex SkeletonIndex::at(int x, int y) const {

@@ -18,16 +18,25 @@ constexpr BitWord last_word_mask(int width) {
   return used == 0 ? ~BitWord{0} : (BitWord{1} << used) - 1;
 }
 
+/// Set bits of each byte of a word.
+constexpr BitWord bits_of_bytes(BitWord word) {
+  word -= (word >> 1) & 0x5555555555555555U;
+  word = (word & 0x3333333333333333U) + ((word >> 2) & 0x3333333333333333U);
+  return (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+}
 /// Set bits of a word, in plain arithmetic: std::popcount calls the compiler's library where the processor has no such
 /// instruction, and these sums are vectorised.
 constexpr int bits_set(BitWord word) {
-  word -= (word >> 1) & 0x5555555555555555U;
-  word = (word & 0x3333333333333333U) + ((word >> 2) & 0x3333333333333333U);
-  word = (word + (word >> 4)) & 0x0F0F0F0F0F0F0F0FU;
+  word = bits_of_bytes(word);
   word += word >> 8;
   word += word >> 16;
   word += word >> 32;
   return static_cast<int>(word & 0x7FU);
+}
+/// The same of a single word: by a multiplication, which no vector of 64-bit words has, where it is one instruction.
+constexpr int bits_set_in_one(BitWord word) {
+  if constexpr (sizeof(void*) < sizeof(BitWord)) return bits_set(word);
+  return static_cast<int>((bits_of_bytes(word) * 0x0101010101010101U) >> 56);
 }
 
 void clear(BitView mask);

@@ -4,6 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
+#include <random>
+
 #include "tests/support/ascii_image.h"
 #include "tests/support/kernel_tables.h"
 
@@ -144,4 +147,15 @@ TEST_CASE("a polygon with too many points says so; nothing and one point fill no
   CHECK(fill_polygon(image.view(), {}, true) == 0);
   CHECK(fill_polygon(image.view(), std::vector<SubpixelPoint>(1), true) == 0);
   CHECK(count(image.view()) == 0);
+}
+
+TEST_CASE("set bits are counted alike in both ways") {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const BitWord word = random() & random() >> (i % 64);
+    CHECK(bits_set(word) == std::popcount(word));
+    CHECK(bits_set_in_one(word) == std::popcount(word));
+  }
+  CHECK(bits_set(~BitWord{0}) == 64);
+  CHECK(bits_set_in_one(~BitWord{0}) == 64);
 }
