@@ -7,8 +7,8 @@ namespace touchline {
 namespace {
 
 constexpr int refinements = 6;
-constexpr float settled_m =
-    1.0e-4F;                         // a step this short says nothing: a working pixel is twenty times as long and more
+// A step this short says nothing: a working pixel is twenty times as long and more.
+constexpr float settled_m = 1.0e-4F;
 constexpr float skeleton_px = 0.8F;  // 1 sigma of a skeleton point
 constexpr float rag_widths = 0.15F;  // and what the ragged edge of a wide line adds
 constexpr float slack_radii = 0.2F;  // a refinement seldom moves a centre farther

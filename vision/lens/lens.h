@@ -40,7 +40,7 @@ struct RayLanes {
   static constexpr int most = vector_registers ? 16 : 8;
   static constexpr int width = vector_registers ? 4 : 1;  // of the vectors that every processor with vectors has
   int count = 0;
-  float x[most], y[most], z[most];
+  float x[most + width], y[most + width], z[most + width];  // with room for pad()
   float u[most], v[most];
   std::int32_t seen[most];  // 1, or 0 where the ray is beyond max_theta: then u and v say nothing
   /// A point on the carpet, for those who take x and y as that.
@@ -50,9 +50,10 @@ struct RayLanes {
   }
   /// `count`, up to whole vectors.
   [[nodiscard]] int padded() const { return (count + width - 1) / width * width; }
-  /// Fills the last vector with rays that end nowhere.
+  /// Fills the last vector with rays that end nowhere: always as many as a vector has, which takes no loop.
   void pad() {
-    for (int i = count; i < padded(); ++i) x[i] = y[i] = z[i] = 0.0F;
+    if constexpr (width == 1) return;
+    for (int i = 0; i < width; ++i) x[count + i] = y[count + i] = z[count + i] = 0.0F;
   }
 };
 
