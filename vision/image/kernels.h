@@ -42,6 +42,37 @@ struct HalvedFrame {
 
 using HalveFrame = void (*)(const HalvedFrame& frame);
 
+/// A row of interleaved sums, and which of them each working column takes with what weight.
+struct ColumnSums {
+  const std::uint16_t* sums = nullptr;  // three a source column
+  int source_columns = 0;
+  const std::uint16_t* first_column = nullptr;  // of each working column; its taps are inside the row
+  const std::uint16_t* weights = nullptr;       // `taps` a working column
+  int columns = 0;
+  int taps = 0;
+  int weight = 0;                // of all taps of a working column, up to 257
+  int shift = 0;                 // of the weighted sum, to what 16 bits hold
+  std::uint16_t* out = nullptr;  // four a working column: the channels, and one without a meaning
+};
+using ReduceColumns = void (*)(const ColumnSums& sums);
+
+/// A working row between the two halves of the work, channel by channel in 8.6 bit.
+inline constexpr int subsample_fraction_bits = 6;
+struct ChannelRow {
+  const std::uint16_t* channel[3] = {};
+  int columns = 0;
+};
+
+/// Subsampling by any ratio.
+struct SubsampleKernels {
+  /// sums (+)= weight * row.
+  void (*add_row)(const std::uint8_t* row, int count, int weight, bool first, std::uint16_t* sums) = nullptr;
+  ReduceColumns reduce_columns = nullptr;
+  void (*change_colour)(const ChannelRow& row, const ColourRow& matrix, std::uint8_t* out) = nullptr;
+  /// Means of 2x2; at an odd border the last column counts twice.
+  void (*halve)(const std::uint16_t* upper, const std::uint16_t* lower, int columns, std::uint16_t* out) = nullptr;
+};
+
 /// out = (a + b + c + d + 2) / 4 of four rows of samples.
 using MeanOfFour = void (*)(const std::uint8_t* const* rows, int width, std::uint8_t* out);
 
@@ -50,6 +81,7 @@ struct BlockRow;
 struct Kernels {
   const char* name = nullptr;
   HalveFrame halve_frame = nullptr;  // null: not offered
+  SubsampleKernels subsample;
   ChangeRows change_rows = nullptr;
   MeanOfFour mean_of_four = nullptr;  // null: not offered
   void (*find_ridges)(const RidgeSearch& search) = nullptr;

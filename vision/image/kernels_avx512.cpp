@@ -25,6 +25,7 @@
 #include "vision/image/luma_bands_avx512.h"
 #include "vision/image/mask_rows_avx512.h"
 #include "vision/image/mean_rows_loops.h"
+#include "vision/image/reduce_columns_avx512.h"
 #include "vision/image/ridge_search_avx512.h"
 #include "vision/image/thinning_loops.h"
 #include "vision/line_probe_loops.h"
@@ -37,6 +38,7 @@ Kernels avx512_kernels() {
   return {
       .name = "avx512",
       .halve_frame = halve_avx512::halve_frame,
+      .subsample = subsample_loops::kernels(reduce_avx512::reduce_columns),
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge_avx512::find_ridges,

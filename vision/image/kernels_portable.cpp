@@ -9,6 +9,7 @@
 #include "vision/image/mean_rows_loops.h"
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/ridge_search_words.h"
+#include "vision/image/subsample_loops.h"
 #include "vision/image/vector_registers.h"
 #include "vision/line_probe_loops.h"
 
@@ -19,6 +20,7 @@ Kernels portable_kernels() {
   return {
       .name = "portable",
       .halve_frame = nullptr,
+      .subsample = subsample_loops::kernels(),
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
       .find_ridges = ridge::find_ridges,
@@ -42,6 +44,7 @@ Kernels word_kernels() {
   return {
       .name = "words",
       .halve_frame = nullptr,
+      .subsample = subsample_loops::kernels(),
       .change_rows = change_rows::run,
       .mean_of_four = nullptr,
       .find_ridges = ridge_words::find_ridges,

@@ -22,18 +22,7 @@ constexpr int pixel_lanes = 4;
 constexpr int max_exact_cells = 257;
 constexpr int rounded_cell = 256;
 
-/// A working pixel between the two halves of the work: 8.6 bit.
-constexpr int fraction_bits = 6;
-
-/// sums (+)= weight * row.
-void add_row(const std::uint8_t* row, int count, int weight, bool first, std::uint16_t* sums) {
-  const auto w = static_cast<std::uint16_t>(weight);
-  if (first) {
-    for (int i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>(row[i] * w);
-  } else {
-    for (int i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + row[i] * w);
-  }
-}
+constexpr int fraction_bits = subsample_fraction_bits;
 
 /// Two rows of the same weight at once: the usual 480 to 240.
 void set_two_rows(const std::uint8_t* a, const std::uint8_t* b, int count, int weight, std::uint16_t* sums) {
@@ -79,22 +68,6 @@ void reduce_pairs(const std::uint16_t* sums, ColumnTable table, std::uint16_t* o
   }
 }
 
-/// The same, a column at a time, for sizes whose ratio is no small fraction. With rounded weights (`wide`) the result
-/// is in 8.6 bit.
-void reduce_columns(const std::uint16_t* sums, ColumnTable table, bool wide, std::uint16_t* out) {
-  const std::uint16_t* weight = table.weights;
-  for (int x = 0; x < table.columns; ++x, weight += table.taps) {
-    const std::uint16_t* source = sums + 3 * table.first[x];
-    std::uint32_t total[3] = {};
-    for (int t = 0; t < table.taps; ++t) {
-      for (int c = 0; c < 3; ++c) total[c] += std::uint32_t{source[3 * t + c]} * weight[t];
-    }
-    for (int c = 0; c < 3; ++c) {
-      out[pixel_lanes * x + c] = static_cast<std::uint16_t>(wide ? total[c] >> (16 - fraction_bits) : total[c]);
-    }
-  }
-}
-
 /// From pixels to channels, eight pixels at a time.
 void split_channels(const std::uint16_t* pixels, int columns, std::uint16_t* c0, std::uint16_t* c1, std::uint16_t* c2) {
   for (int x = 0; x < columns; x += subsample_lanes, pixels += pixel_lanes * subsample_lanes) {
@@ -124,29 +97,6 @@ void scale_row(std::uint16_t* row, int columns, std::uint16_t factor) {
   } else {
     const std::uint64_t high = std::uint64_t{factor} << 16;
     for (int x = 0; x < columns; ++x) row[x] = static_cast<std::uint16_t>((row[x] * high) >> 32);
-  }
-}
-
-/// One plane of the result. 8.6 bit times 14 bit stays below 2^31.
-void change_colour(const std::uint16_t* c0, const std::uint16_t* c1, const std::uint16_t* c2, int columns,
-                   const ColourRow& m, std::uint8_t* out) {
-  constexpr int shift = colour_bits + fraction_bits;
-  const std::int32_t offset = m.offset * (1 << fraction_bits) + (1 << (shift - 1));
-  const std::int16_t a = m.a, b = m.b, c = m.c;
-  for (int x = 0; x < columns; ++x) {
-    const std::int32_t sum = a * static_cast<std::int16_t>(c0[x]) + b * static_cast<std::int16_t>(c1[x]) +
-                             c * static_cast<std::int16_t>(c2[x]) + offset;
-    out[x] = static_cast<std::uint8_t>(std::clamp<std::int32_t>(sum >> shift, 0, 255));
-  }
-}
-
-/// Means of 2x2; at an odd border the last column counts twice.
-void halve(const std::uint16_t* upper, const std::uint16_t* lower, int columns, std::uint16_t* out) {
-  for (int x = 0; x < columns / 2; ++x) {
-    out[x] = static_cast<std::uint16_t>((upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1] + 2) >> 2);
-  }
-  if (columns % 2 != 0) {
-    out[columns / 2] = static_cast<std::uint16_t>((upper[columns - 1] + lower[columns - 1] + 1) >> 1);
   }
 }
 
@@ -221,6 +171,7 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   period_ = pairs ? period : 0;
   set_weights();
   halve_frame_ = fits_kernels(kernels) ? kernels.halve_frame : nullptr;
+  loops_ = kernels.subsample;
   change_rows_ = kernels.change_rows;
   if (halve_frame_ != nullptr) set_kernel_weights();
   configured_ = true;
@@ -325,7 +276,7 @@ void Subsampler::make_work_row(const FrameView& frame, int y, const Channels& ou
   } else {
     bool first = true;
     for_each_tap(vertical_, y, [&](int source, int weight) {
-      add_row(unpack_row(frame, source, memory_.unpacked.data()), samples, weight, first, sums);
+      loops_.add_row(unpack_row(frame, source, memory_.unpacked.data()), samples, weight, first, sums);
       first = false;
     });
   }
@@ -334,7 +285,8 @@ void Subsampler::make_work_row(const FrameView& frame, int y, const Channels& ou
   if (period_ != 0) {
     reduce_pairs(sums, table, pixels);
   } else {
-    reduce_columns(sums, table, wide_, pixels);
+    loops_.reduce_columns({sums, frame.width, table.first, table.weights, table.columns, table.taps, horizontal_.cell,
+                           wide_ ? 16 - fraction_bits : 0, pixels});
   }
   split_channels(pixels, horizontal_.target, out.channel[0], out.channel[1], out.channel[2]);
   if (!wide_) scale_row(out.channel[0], 3 * whole_lanes(horizontal_.target), scale_);
@@ -366,8 +318,8 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     return Status::ok;
   }
   const ColourMatrix matrix = colour_matrix(frame.format);
-  const auto change = [](const Channels& row, int columns, const ColourRow& m, std::uint8_t* to) {
-    change_colour(row.channel[0], row.channel[1], row.channel[2], columns, m, to);
+  const auto change = [this](const Channels& row, int columns, const ColourRow& m, std::uint8_t* to) {
+    loops_.change_colour({{row.channel[0], row.channel[1], row.channel[2]}, columns}, m, to);
   };
   const Channels upper = work_row(0);
   const Channels chroma = work_row(-1);
@@ -380,7 +332,7 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
       make_work_row(frame, y + 1, lower);
       change(lower, width, matrix.y, out.y.row(y + 1));
     }
-    for (int c = 0; c < 3; ++c) halve(upper.channel[c], lower.channel[c], width, chroma.channel[c]);
+    for (int c = 0; c < 3; ++c) loops_.halve(upper.channel[c], lower.channel[c], width, chroma.channel[c]);
     change(chroma, chroma_width, matrix.cb, out.cb.row(y / 2));
     change(chroma, chroma_width, matrix.cr, out.cr.row(y / 2));
   }

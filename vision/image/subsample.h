@@ -106,6 +106,7 @@ class Subsampler {
   int period_ = 0;  // the weights of columns repeat after so many, and are kept in pairs; 0: each column has its own
   std::uint16_t scale_ = 0;           // from sums to 8.6 bit, in 1/65536
   HalveFrame halve_frame_ = nullptr;  // where the sizes fit it
+  SubsampleKernels loops_;
   ChangeRows change_rows_ = nullptr;
   bool wide_ = false;  // sums need 32 bit: the weights are rounded
   bool configured_ = false;

@@ -65,7 +65,13 @@ TEST_CASE("kernels subsample as the portable code does") {
                         {640, 480, 200, 240},
                         {1280, 960, 640, 480},
                         {320, 240, 320, 240},
-                        {86, 16, 86, 16}}) {
+                        {86, 16, 86, 16},
+                        {94, 60, 46, 30},  // no pairs of columns: too many taps, no small fraction, too few columns
+                        {900, 60, 100, 30},
+                        {752, 480, 452, 340},
+                        {13, 8, 6, 4},
+                        {1280, 720, 226, 170},
+                        {1280, 960, 86, 64}}) {
     for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24}) {
       const auto pixels = noise(static_cast<std::size_t>(s.width * s.height * 3), 4);
       const FrameView frame{format, pixels.data(), s.width, s.height, s.width * 3};
