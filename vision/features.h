@@ -71,7 +71,7 @@ struct PostObservation {
 struct LinePoint {
   PixelPoint pixel;    // camera pixels, better than a working pixel where the profile allows it
   GroundPoint ground;  // robot's frame, with the attitude as given
-  float dir_x = 1.0F;  // unit direction of the line on the ground, robot's frame; dir_x > 0, or it is 0 and dir_y is 1
+  float dir_x = 0.0F;  // unit direction of the line on the ground, robot's frame; dir_x > 0, or it is 0 and dir_y is 1
   float dir_y = 0.0F;
   float length = 0;  // metres of line on the ground that this point stands for
   float sigma = 0;   // metres on the ground, 1 sigma across the line, of one working pixel

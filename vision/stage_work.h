@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages work in and leave to nobody: in one place, one stage after the other. Every stage writes there before
-// it reads; what it finds there is of no meaning to it (tests/vision/pipeline_test.cpp).
+// it reads; what it finds there is of no meaning to it (tests/vision/stage_work_test.cpp). The node graph alone goes on
+// where digestion ended: with the index and the labels of GraphWork.
 #pragma once
 
 #include <array>

@@ -30,12 +30,22 @@ bool in_reach(const MaskPolygon& polygon) {
   return true;
 }
 
+/// All that every table has.
+bool is_whole(const Kernels& k) {
+  const bool frame = k.change_rows != nullptr && k.subsample.add_row != nullptr &&
+                     k.subsample.reduce_columns != nullptr && k.subsample.change_colour != nullptr &&
+                     k.subsample.halve != nullptr;
+  const bool colour = k.hsv_rows != nullptr && k.white_rows != nullptr && k.carpet.count_colours != nullptr &&
+                      k.carpet.sum_chroma != nullptr && k.carpet.count_ratios != nullptr;
+  const bool points =
+      k.probes.axes != nullptr && k.probes.edges != nullptr && k.probes.widths != nullptr && k.probes.places != nullptr;
+  return frame && colour && points && k.find_ridges != nullptr;
+}
+
 }  // namespace
 
 Status check_config(const VisionConfig& c, const char** what) {
-  if (c.kernels.find_ridges == nullptr || c.kernels.hsv_rows == nullptr || c.kernels.white_rows == nullptr ||
-      c.kernels.probes.axes == nullptr)
-    return refuse(what, "kernels");
+  if (!is_whole(c.kernels)) return refuse(what, "kernels");
   if (c.fifo_depth < 1 || c.fifo_depth > max_fifo_depth) return refuse(what, "fifo_depth");
   if (!odd_kernel(c.green_erode_px)) return refuse(what, "green_erode_px");
   if (!odd_kernel(c.green_dilate_px)) return refuse(what, "green_dilate_px");

@@ -113,8 +113,17 @@ TEST_CASE("a range of colours has hues up to 179, and its bounds in order") {
   config.white_post.value_high = 100;
   CHECK(chain.refused(config) == "white_post");
   config = {};
-  config.kernels.find_ridges = nullptr;
-  CHECK(chain.refused(config) == "kernels");
+  void (*const take_away[])(Kernels&) = {
+      [](Kernels& k) { k.find_ridges = nullptr; },       [](Kernels& k) { k.hsv_rows = nullptr; },
+      [](Kernels& k) { k.white_rows = nullptr; },        [](Kernels& k) { k.change_rows = nullptr; },
+      [](Kernels& k) { k.subsample.halve = nullptr; },   [](Kernels& k) { k.subsample.reduce_columns = nullptr; },
+      [](Kernels& k) { k.carpet.sum_chroma = nullptr; }, [](Kernels& k) { k.probes.places = nullptr; },
+  };
+  for (const auto& take : take_away) {
+    config.kernels = portable_kernels();
+    take(config.kernels);
+    CHECK(chain.refused(config) == "kernels");
+  }
 }
 
 TEST_CASE("every number of a frame's camera is checked") {

@@ -164,8 +164,8 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   const int cells = horizontal_.cell * vertical_.cell;
   scale_ = static_cast<std::uint16_t>(((1 << (16 + fraction_bits)) + cells - 1) / cells);
   taps_ = most_taps(horizontal_);
-  // Pairs of columns need an even period.
-  const int period = std::lcm(work_width / std::gcd(frame_width, work_width), 2);
+  // Pairs of columns need an even period, kernels one of four.
+  const int period = std::lcm(work_width / std::gcd(frame_width, work_width), 4);
   const bool pairs = !wide_ && work_width % 2 == 0 && taps_ <= max_pair_taps &&
                      static_cast<std::size_t>(period * taps_ * pixel_lanes) <= memory_.weights.size();
   period_ = pairs ? period : 0;

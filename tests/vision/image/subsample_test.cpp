@@ -227,6 +227,23 @@ TEST_CASE("other formats of the working size, too") {
   }
 }
 
+TEST_CASE("the usual cameras take the kernel that halves rows") {
+  static int calls = 0;
+  Kernels kernels = portable_kernels();
+  kernels.halve_frame = [](const HalvedFrame&) { ++calls; };
+  for (const auto& [width, height] : {std::pair{752, 480}, {640, 480}, {1280, 480}}) {
+    CAPTURE(width);
+    const auto storage = std::make_unique<Storage>();
+    Subsampler subsampler(storage->memory());
+    REQUIRE(subsampler.configure(width, height, 320, 240, kernels) == Status::ok);
+    const Frame frame(PixelFormat::rgb24, width, height);
+    Picture out(320, 240);
+    calls = 0;
+    CHECK(subsampler.run(frame.view(), out.view()) == Status::ok);
+    CHECK(calls == 1);
+  }
+}
+
 TEST_CASE("bytes beyond the row are never looked at") {
   Frame tight(PixelFormat::rgb24, 33, 21, 0), padded(PixelFormat::rgb24, 33, 21, 40);
   fill_random(tight, 6);
