@@ -11,7 +11,8 @@
 
 namespace touchline {
 
-/// For working images of up to W x H, frames of up to FrameWidth columns, and a FIFO of Depth frames.
+/// For working images of up to W x H (983,000 pixels in all, for numbers of 16 bits), frames of up to FrameWidth
+/// columns, and a FIFO of Depth frames.
 template <int W = 320, int H = 240, int Depth = 4, int FrameWidth = max_frame_width>
 class PipelineStorage {
   static_assert(Depth >= 1 && Depth <= max_fifo_depth);
