@@ -67,7 +67,7 @@ struct PostObservation {
   float confidence = 0.0F;
 };
 
-/// A point on the middle of a line.
+/// A point on the middle of a line. Zero before it is filled in, so that a static storage takes no room in flash.
 struct LinePoint {
   PixelPoint pixel;    // camera pixels, better than a working pixel where the profile allows it
   GroundPoint ground;  // robot's frame, with the attitude as given

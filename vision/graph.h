@@ -25,7 +25,7 @@ struct GraphNode {
 /// A stretch of skeleton between two nodes (or from a node to a free end: then node_b is no_node).
 inline constexpr std::uint16_t no_node = 0xFFFF;
 struct GraphEdge {
-  std::uint16_t node_a = 0;  // as all of a storage is zero at first: it takes no room in a program's file
+  std::uint16_t node_a = 0;  // at first, so that a static storage takes no room in flash
   std::uint16_t node_b = 0;
   std::uint16_t first_point = 0;  // into NodeGraphView::points, from node_a to node_b, both ends included
   std::uint16_t point_count = 0;

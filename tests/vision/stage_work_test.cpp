@@ -44,13 +44,19 @@ class Scribbler final : public StageObserver {
     scribble(m.thinning.columns);
     scribble(m.thinning.marks);
     scribble(m.pieces.runs);
+    scribble(m.pieces.pieces);
+    scribble(m.pieces.corners);
     scribble(m.pieces.stack);
     scribble(m.graph.index.pixels);
     scribble(m.graph.index.pixels_before);
     scribble(m.graph.digestion.live);
     scribble(m.graph.digestion.parent);
     scribble(m.graph.digestion.weight);
+    scribble(m.graph.graph.open);
+    scribble(m.graph.graph.cluster);
     scribble(m.graph.graph.stack);
+    scribble(m.graph.graph.first_pixel);
+    scribble(m.graph.graph.expanded);
     scribble(std::span(m.feature_work, 1));
     scribble(m.edge_done);
   }

@@ -27,9 +27,6 @@ using U8 = std::uint8_t __attribute__((vector_size(lanes)));
 /// to as many to its right.
 using Rows = std::uint32_t __attribute__((vector_size(32)));
 using Windows = std::uint64_t __attribute__((vector_size(64)));
-inline constexpr int margin_px = 16;
-inline constexpr int window_px = column_px + 2 * margin_px;
-static_assert(margin_px >= max_ridge_reach_px && window_px == 64);
 
 [[gnu::always_inline]] inline I16 load_bytes(const std::uint8_t* from) {
 #if defined(__AVX2__)

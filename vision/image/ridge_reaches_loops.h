@@ -15,6 +15,26 @@ namespace ridge {
 /// A column of the image is `column_px` wide, four blocks of the width table; a strip of it has as many rows as those.
 inline constexpr int column_px = 32;
 inline constexpr int strip_rows = width_block_px;
+/// The window: from `margin_px` to the left of the column to as many to its right.
+inline constexpr int margin_px = 16;
+inline constexpr int window_px = column_px + 2 * margin_px;
+static_assert(margin_px >= max_ridge_reach_px && window_px == 64);
+
+/// Of an image `width` pixels wide, for the column from x0 on.
+struct ColumnPixels {
+  std::uint32_t inner;   // of the column: those with neighbours on both sides
+  std::uint64_t inside;  // of the window: those inside the image
+};
+[[gnu::always_inline]] inline ColumnPixels column_pixels(int x0, int width) {
+  const int first = x0 < 1 ? 1 : 0;
+  const int left = width - x0;
+  const int end = left - 1 < column_px ? left - 1 : column_px;
+  const std::uint64_t inner = end <= first ? 0 : (std::uint64_t{1} << end) - (std::uint64_t{1} << first);
+  std::uint64_t inside = ~std::uint64_t{0};
+  if (x0 == 0) inside <<= margin_px;
+  if (left + margin_px < window_px) inside &= (std::uint64_t{1} << (left + margin_px)) - 1;
+  return {static_cast<std::uint32_t>(inner), inside};
+}
 
 /// The steps to both sides for the four blocks of a strip, bit r for r pixels: along the row, then along the column.
 using Reaches = std::uint32_t __attribute__((vector_size(32)));

@@ -20,17 +20,15 @@ namespace {
 namespace ridge_avx512 {
 
 using ridge::column_px;
+using ridge::margin_px;
 using ridge::strip_rows;
+using ridge::window_px;
 
 /// Rows that stay, each at its number modulo as many: a strip and the farthest steps above and below it.
 inline constexpr int kept_rows = 32;
 static_assert(kept_rows >= strip_rows + 2 * max_ridge_reach_px && kept_rows % strip_rows == 0);
 /// The first of them come again behind the last, so that any eight in turn lie in one piece.
 inline constexpr int stored_rows = kept_rows + strip_rows;
-/// The window: from `margin_px` to the left of the column to as many to its right.
-inline constexpr int margin_px = 16;
-inline constexpr int window_px = column_px + 2 * margin_px;
-static_assert(margin_px >= max_ridge_reach_px && window_px == 64);
 inline constexpr int most_looks = 2 * ridge::max_looks;
 
 [[gnu::always_inline]] inline int kept(int y) { return y & (kept_rows - 1); }
@@ -77,13 +75,9 @@ struct alignas(64) Colours {
 class Column {
  public:
   Column(const RidgeSearch& search, int x0) : s_(search), x0_(x0), byte_(x0 / 8) {
-    const int first = x0 < 1 ? 1 : 0;  // pixels at the border have no neighbour
-    const int left = search.roi.width - x0;
-    const int end = left - 1 < column_px ? left - 1 : column_px;
-    inner_ = static_cast<std::uint32_t>(end <= first ? 0 : (std::uint64_t{1} << end) - (std::uint64_t{1} << first));
-    inside_ = ~std::uint64_t{0};
-    if (x0 == 0) inside_ <<= margin_px;
-    if (left + margin_px < window_px) inside_ &= (std::uint64_t{1} << (left + margin_px)) - 1;
+    const auto [inner, inside] = ridge::column_pixels(x0, search.roi.width);
+    inner_ = inner;
+    inside_ = inside;
     inside_chroma_ = _mm512_test_epi16_mask(_mm512_movm_epi8(inside_), _mm512_set1_epi16(-1));
     axis_ = _mm512_unpacklo_epi16(_mm512_set1_epi16(static_cast<std::int16_t>(search.axis_cb)),
                                   _mm512_set1_epi16(static_cast<std::int16_t>(search.axis_cr)));

@@ -35,13 +35,9 @@ template <std::size_t Count>
 class Column {
  public:
   Column(const RidgeSearch& search, int x0) : s_(search), x0_(x0) {
-    const int first = x0 < 1 ? 1 : 0;  // pixels at the border have no neighbour
-    const int left = search.roi.width - x0;
-    const int end = left - 1 < column_px ? left - 1 : column_px;
-    inner_ = static_cast<std::uint32_t>(end <= first ? 0 : (std::uint64_t{1} << end) - (std::uint64_t{1} << first));
-    inside_ = ~std::uint64_t{0};
-    if (x0 == 0) inside_ <<= margin_px;
-    if (left + margin_px < 64) inside_ &= (std::uint64_t{1} << (left + margin_px)) - 1;
+    const auto [inner, inside] = ridge::column_pixels(x0, search.roi.width);
+    inner_ = inner;
+    inside_ = inside;
   }
 
   void search() {
