@@ -231,7 +231,8 @@ TEST_CASE("the usual cameras take the kernel that halves rows") {
   static int calls = 0;
   Kernels kernels = portable_kernels();
   kernels.halve_frame = [](const HalvedFrame&) { ++calls; };
-  for (const auto& [width, height] : {std::pair{752, 480}, {640, 480}, {1280, 480}}) {
+  const int height = 480;
+  for (const int width : {752, 640, 1280}) {
     CAPTURE(width);
     const auto storage = std::make_unique<Storage>();
     Subsampler subsampler(storage->memory());
