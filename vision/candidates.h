@@ -30,12 +30,6 @@ enum class CandidateRejection : std::uint8_t {
 const char* to_string(CandidateRejection reason);
 inline constexpr std::size_t candidate_rejections = static_cast<std::size_t>(CandidateRejection::count);
 
-/// Where an edge can tell more than white search did: within four pixels, along the row and the column, of white of the
-/// region that is neither a line nor beside one. A line's white begins within three pixels of its edge; the fourth lets
-/// weak edges lead to strong ones. `zone` is set, inside the region.
-void find_edge_zone(ConstBitView white, ConstBitView region, ConstBitView lines, BitView zone,
-                    const Kernels& kernels = portable_kernels());
-
 /// Thresholds that noise of the measured strength passes rarely: 4 and 8 times its gradient.
 CannyThresholds edge_thresholds(const CarpetModel& carpet);
 

@@ -12,8 +12,6 @@
 namespace touchline {
 namespace {
 
-constexpr int side_reach = 3;  // pixels from an edge to where the blur has ended
-
 constexpr int magnitude(int v) { return v < 0 ? -v : v; }
 
 struct Gradient {
@@ -103,9 +101,6 @@ struct Edge {
   int dx, dy;  // to the bright side
 };
 
-/// Pixels that a line may have from an edge to the green on its other side.
-int longest_step(const LineWidth& width) { return with_tolerance(width.slanted) + side_reach; }
-
 /// Pixels from the edge to the green behind the white; limit + 1 when that is farther.
 int step_to_green(const EdgeInput& input, const Edge& e, int limit) {
   bool seen = false;
@@ -170,12 +165,7 @@ BitWord lines_in_row(const EdgeInput& input, const Place& at, BitWord edges, int
 
 /// The same in their columns, all of them at once.
 BitWord lines_in_columns(const EdgeInput& input, const Place& at, BitWord edges, int dy) {
-  int limit = 0;
-  for (BitWord left = edges; left != 0;) {
-    const int bit = std::countr_zero(left);
-    limit = std::max(limit, longest_step(width_at(input.widths, at.x(bit), at.y)));
-    left &= ~(BitWord{0xFF} << (bit & ~7));  // of their block of the table
-  }
+  const int limit = longest_step(input.widths, at.y, at.word, edges);
   BitWord lines = 0;
   BitWord seen = 0;
   for (int length = 1; length <= limit && edges != 0; ++length) {
@@ -207,8 +197,8 @@ struct EdgeCounts {
 };
 
 void add_edges_of_word(const EdgeInput& input, const Place& at, BitWord edges, BitView lines, EdgeCounts& counts) {
-  const Steps white = near_bits<side_reach>(input.white, at);
-  const Steps green = near_bits<side_reach>(input.green, at);
+  const Steps white = near_bits<edge_side_px>(input.white, at);
+  const Steps green = near_bits<edge_side_px>(input.green, at);
   // Most edges are the carpet's noise, and need no direction: without green anywhere, or without white and green on all
   // sides.
   const BitWord no_white = edges & ~any(white);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
+#include "vision/image/bit_image.h"
 #include "vision/line_width_table.h"
 
 namespace touchline {
@@ -17,6 +19,22 @@ inline const LineWidth& width_at(LineWidthView widths, int x, int y) {
 /// Pixels that a line's extent may have: a quarter more for the roughness of the table, two and a half for the blur of
 /// both ends.
 constexpr int with_tolerance(int sixteenths) { return (sixteenths * 5 / 4 + 40) / 16; }
+
+inline constexpr int edge_side_px = 3;  // from an edge to where the blur has ended
+
+/// Pixels that a line may have from an edge to the green on its other side.
+inline int longest_step(const LineWidth& width) { return with_tolerance(width.slanted) + edge_side_px; }
+/// The same for any of the pixels of word `word` of row y.
+inline int longest_step(LineWidthView widths, int y, int word, BitWord pixels) {
+  constexpr BitWord block = (BitWord{1} << width_block_px) - 1;
+  int longest = 0;
+  while (pixels != 0) {
+    const int bit = std::countr_zero(pixels);
+    longest = std::max(longest, longest_step(width_at(widths, word * bits_per_word + bit, y)));
+    pixels &= ~(block << (bit & ~(width_block_px - 1)));  // of one entry of the table
+  }
+  return longest;
+}
 
 /// A line that leaves the scan's normal by the slope s = rise / run (in pixels, 0 <= rise <= run) has along the scan
 /// the extent sqrt(across^2 + s (slanted^2 - across^2 - other_across^2) + s^2 other_across^2): |J e| of

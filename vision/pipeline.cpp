@@ -6,6 +6,7 @@
 #include "platform/core/elementary.h"
 #include "vision/candidates.h"
 #include "vision/digestion.h"
+#include "vision/edge_zone.h"
 #include "vision/ground_mask.h"
 #include "vision/image/bit_ops.h"
 #include "vision/image/hsv.h"
@@ -168,7 +169,8 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& edges = views_.mask(MaskId::edges);
   // An edge beside a line that is found already adds nothing. The line mask is made later: its memory is free.
   const BitView& zone = views_.mask(MaskId::line_mask);
-  find_edge_zone(views_.mask(MaskId::white), roi, candidates, zone, config_.kernels);
+  find_edge_zone({views_.mask(MaskId::white), views_.mask(MaskId::green), roi, candidates, result.line_widths}, zone,
+                 config_.kernels);
   const GrowResult grown = find_edges(result.mean.y, zone, edge_thresholds(carpet_), memory_.canny,
                                       views_.mask(MaskId::scratch), edges, config_.kernels);
   result.counts.dropped_edge_seeds = (ridges.finished ? 0 : 1) + (grown.finished ? 0 : 1);

@@ -5,9 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <memory>
-#include <utility>
 
-#include "tests/support/kernel_tables.h"
 #include "tests/vision/drawn_carpet.h"
 
 using namespace touchline;
@@ -84,37 +82,5 @@ TEST_CASE("a lying stripe that is too high for its slope is none") {
 TEST_CASE("each reason has a name") {
   for (std::size_t i = 0; i < candidate_rejections; ++i) {
     CHECK(std::string(to_string(static_cast<CandidateRejection>(i))) != "unknown reason");
-  }
-}
-
-TEST_CASE("edges are looked for within four pixels of white of the region that no line is at or beside") {
-  for (const auto& [w, h] : {std::pair{150, 43}, {64, 8}, {65, 17}, {7, 3}}) {
-    const Bits white = random_bits(w, h, 2, 1), region = random_bits(w, h, 70, 2), lines = random_bits(w, h, 3, 3);
-    const auto any_near = [](int x, int y, int reach, const auto& what) {
-      for (int v = y - reach; v <= y + reach; ++v) {
-        for (int u = x - reach; u <= x + reach; ++u) {
-          if (what(u, v)) return true;
-        }
-      }
-      return false;
-    };
-    const auto line = [&](int x, int y) { return lines.view().get(x, y); };
-    const auto open = [&](int x, int y) {
-      return white.view().get(x, y) && region.view().get(x, y) && !any_near(x, y, 1, line);
-    };
-    for (const Kernels& kernels : test::all_tables()) {
-      CAPTURE(kernels.name);
-      Bits zone(w, h);
-      fill(zone.view());  // nothing of it stays
-      find_edge_zone(white.view(), region.view(), lines.view(), zone.view(), kernels);
-      for (int y = 0; y < h; ++y) {
-        for (int x = 0; x < w; ++x) {
-          CAPTURE(x);
-          CAPTURE(y);
-          REQUIRE(zone.view().get(x, y) == (region.view().get(x, y) && any_near(x, y, 4, open)));
-        }
-      }
-      CHECK(padding_is_clear(zone.view()));
-    }
   }
 }
