@@ -2,6 +2,7 @@
 #include "vision/line_points.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <cstdint>
@@ -100,27 +101,63 @@ class PointFinder {
   /// line: at ends, forks and bends, where the middle of the line means nothing.
   void find_axes(int radius, float most_across, LineProbes& probes) const {
     ProbeMoments all;
-    ProbeWindows windows{bytes_of(input_.skeleton), input_.skeleton.stride * bits_per_word / 8, radius};
+    const WindowParts parts = parts_of(radius);
+    std::array<ProbeWindows, 2> windows;
+    std::uint32_t asked = 0;
     for (int i = 0; i < probes.count; ++i) {
       if (probes.state[i] == probe_alive) continue;
       const GridPoint at{static_cast<std::int16_t>(probes.x[i]), static_cast<std::int16_t>(probes.y[i])};
-      MomentWindow window;
-      if (input_.kernels.probes.moments != nullptr && make_window(input_.skeleton, at, radius, window)) {
-        windows.asked |= 1U << i;
-        windows.offset[i] = static_cast<std::int32_t>(window.bytes - windows.bytes);
-        windows.shift[i] = window.shift;
-        continue;
+      if (input_.kernels.probes.moments != nullptr && make_windows(at, parts, radius, i, windows)) {
+        asked |= 1U << i;
+      } else {
+        add(moments_around(input_.skeleton, at, radius, input_.kernels), i, all);
       }
-      const Moments m = moments_around(input_.skeleton, at, radius, input_.kernels);
-      all.n[i] = m.n;
-      all.x[i] = m.x;
-      all.y[i] = m.y;
-      all.xx[i] = m.xx;
-      all.xy[i] = m.xy;
-      all.yy[i] = m.yy;
     }
-    if (windows.asked != 0) input_.kernels.probes.moments(windows, all);
+    for (int k = 0; k < parts.count && asked != 0; ++k) {
+      ProbeWindows& part = windows[static_cast<std::size_t>(k)];
+      const WindowColumns& columns = parts.part[static_cast<std::size_t>(k)];
+      part.bytes = bytes_of(input_.skeleton);
+      part.stride = input_.skeleton.stride * bits_per_word / 8;
+      part.columns = columns.count;
+      part.radius = radius;
+      part.asked = asked;
+      sum_windows(part, columns.middle(), all);
+    }
     input_.kernels.probes.axes(all, radius, most_across, probes);
+  }
+
+  /// A probe's windows; false when one of them is not wholly inside the mask's memory.
+  bool make_windows(GridPoint at, const WindowParts& parts, int radius, int probe,
+                    std::array<ProbeWindows, 2>& windows) const {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(parts.count); ++k) {
+      MomentWindow window;
+      if (!make_window(input_.skeleton, at, parts.part[k], radius, window)) return false;
+      windows[k].offset[probe] = static_cast<std::int32_t>(window.bytes - bytes_of(input_.skeleton));
+      windows[k].shift[probe] = window.shift;
+    }
+    return true;
+  }
+
+  /// Adds the moments of windows about the pixels that lie `middle` columns from their own middles.
+  void sum_windows(const ProbeWindows& windows, int middle, ProbeMoments& sums) const {
+    if (middle == 0) {  // the only ones
+      input_.kernels.probes.moments(windows, sums);
+      return;
+    }
+    ProbeMoments m;
+    input_.kernels.probes.moments(windows, m);
+    for (int i = 0; i < probe_lanes; ++i) {
+      add(moved({m.n[i], m.x[i], m.y[i], m.xx[i], m.xy[i], m.yy[i]}, middle), i, sums);
+    }
+  }
+
+  static void add(const Moments& m, int i, ProbeMoments& sums) {
+    sums.n[i] += m.n;
+    sums.x[i] += m.x;
+    sums.y[i] += m.y;
+    sums.xx[i] += m.xx;
+    sums.xy[i] += m.xy;
+    sums.yy[i] += m.yy;
   }
 
   const LinePointInput& input_;

@@ -33,7 +33,8 @@ struct ProbeMoments {
 struct ProbeWindows {
   const std::uint8_t* bytes = nullptr;
   std::int32_t stride = 0;                        // bytes
-  int radius = 0;                                 // 1 to max_window_radius
+  int columns = 0;                                // 1 to max_window_columns; moments are about columns / 2
+  int radius = 0;                                 // of rows, 1 to max_moments_radius
   std::uint32_t asked = 0;                        // a bit for each window that is
   alignas(64) ProbeInts offset = {}, shift = {};  // of the first row, bytes; 0 to 7
 };

@@ -43,8 +43,8 @@ inline int pixels_of(int left) { return left <= 0 ? 0 : left >= pattern_px ? 127
 inline void moments(const ProbeWindows& w, ProbeMoments& m) {
   static constexpr Sums sums = make_sums();
   const Table count(sums.n), sum(sums.x), squares(sums.xx);
-  const int size = 2 * w.radius + 1;
-  const int a = -w.radius, b = a + pattern_px, c = b + pattern_px;  // first columns, from the middle
+  const int size = w.columns;
+  const int a = -(size / 2), b = a + pattern_px, c = b + pattern_px;  // first columns, from the middle
   const __m512i inside = bytes(pixels_of(size), pixels_of(size - pattern_px), pixels_of(size - 2 * pattern_px));
   const __m512i once = bytes(1, 1, 1);
   const __m512i first = bytes(a, b, c);
@@ -63,14 +63,15 @@ inline void moments(const ProbeWindows& w, ProbeMoments& m) {
     const __m512i patterns = _mm512_and_si512(_mm512_multishift_epi64_epi8(from, row), inside);
     const __m512i row_n = count.of(patterns);
     const __m512i row_x = _mm512_dpbusd_epi32(_mm512_dpbusd_epi32(zero, sum.of(patterns), once), row_n, first);
-    n = _mm512_dpbusd_epi32(n, row_n, once);
+    const __m512i all = _mm512_dpbusd_epi32(zero, row_n, once);
+    n = _mm512_add_epi32(n, all);
     x = _mm512_add_epi32(x, row_x);
     y = _mm512_dpbusd_epi32(y, row_n, _mm512_set1_epi8(static_cast<char>(dy)));
     xx = _mm512_dpbusd_epi32(xx, squares.of(patterns), once);
     xx = _mm512_dpbusd_epi32(xx, sum.of(patterns), twice);
     xx = _mm512_dpbusd_epi32(xx, row_n, square);
     xy = _mm512_dpwssd_epi32(xy, row_x, _mm512_set1_epi32(dy & 0xFFFF));
-    yy = _mm512_dpbusd_epi32(yy, row_n, _mm512_set1_epi8(static_cast<char>(dy * dy)));
+    yy = _mm512_dpwssd_epi32(yy, all, _mm512_set1_epi32(dy * dy));
     offset = _mm512_add_epi32(offset, _mm512_set1_epi32(w.stride));
   }
   _mm512_mask_storeu_epi32(m.n, asked, n);

@@ -67,24 +67,30 @@ Moments count_moments(ConstBitView mask, GridPoint at, int radius) {
 
 }  // namespace
 
-bool make_window(ConstBitView mask, GridPoint at, int radius, MomentWindow& window) {
-  const int left = at.x - radius;
+bool make_window(ConstBitView mask, GridPoint at, WindowColumns columns, int radius, MomentWindow& window) {
+  const int left = at.x + columns.first;
   const int row_bytes = words_for(mask.width) * bits_per_word / 8;
-  if (radius > max_window_radius || left < 0 || left / 8 + 4 > row_bytes) return false;
+  if (left < 0 || left / 8 + 4 > row_bytes) return false;
   if (at.y < radius || at.y + radius >= mask.height) return false;
   const auto* row = reinterpret_cast<const std::uint8_t*>(mask.row(at.y - radius));
-  window = {row + left / 8, reinterpret_cast<const std::uint8_t*>(mask.row(at.y - radius + 1)) - row, left % 8, radius};
+  window = {row + left / 8, reinterpret_cast<const std::uint8_t*>(mask.row(at.y - radius + 1)) - row, left % 8,
+            columns.count, radius};
   return true;
 }
 
 Moments moments_around(ConstBitView mask, GridPoint at, int radius, const Kernels& kernels) {
-  MomentWindow window;
-  if (kernels.window_moments == nullptr || !make_window(mask, at, radius, window)) {
-    return count_moments(mask, at, radius);
+  if (kernels.window_moments == nullptr) return count_moments(mask, at, radius);
+  const WindowParts parts = parts_of(radius);
+  Moments sum;
+  for (int k = 0; k < parts.count; ++k) {
+    const WindowColumns& columns = parts.part[static_cast<std::size_t>(k)];
+    MomentWindow window;
+    if (!make_window(mask, at, columns, radius, window)) return count_moments(mask, at, radius);
+    Moments m;
+    kernels.window_moments(window, m);
+    sum = sum + moved(m, columns.middle());
   }
-  Moments moments;
-  kernels.window_moments(window, moments);
-  return moments;
+  return sum;
 }
 
 }  // namespace touchline

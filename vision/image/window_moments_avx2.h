@@ -37,21 +37,21 @@ inline void window_moments(const MomentWindow& w, Moments& m) {
   const __m128i low_xx = _mm_setr_epi8(0, 0, 1, 1, 4, 4, 5, 5, 9, 9, 10, 10, 13, 13, 14, 14);
   const __m128i high_x = _mm_setr_epi8(0, 4, 5, 9, 6, 10, 11, 15, 7, 11, 12, 16, 13, 17, 18, 22);
   const __m128i high_xx = _mm_setr_epi8(0, 16, 25, 41, 36, 52, 61, 77, 49, 65, 74, 90, 85, 101, 110, 126);
-  const int size = 2 * w.radius + 1;
-  const int a = -w.radius, b = size > 8 ? 8 - w.radius : 0, c = size > 16 ? 16 - w.radius : 0;  // first columns
+  const int rows = 2 * w.radius + 1;
+  const int a = -(w.columns / 2), b = w.columns > 8 ? a + 8 : 0, c = w.columns > 16 ? a + 16 : 0;  // first columns
   const __m256i once = _mm256_set1_epi8(1);
   const __m256i first = byte_weights(a, b, c);
   const __m256i twice = byte_weights(2 * a, 2 * b, 2 * c);
   const __m256i square = byte_weights(a * a, b * b, c * c);
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i at = _mm256_mullo_epi32(lane, _mm256_set1_epi32(static_cast<int>(w.stride)));
-  const __m256i inside = _mm256_set1_epi32((1 << size) - 1);
+  const __m256i inside = _mm256_set1_epi32((1 << w.columns) - 1);
   const __m256i half_byte = _mm256_set1_epi8(15);
   __m256i n = _mm256_setzero_si256();
   __m256i x = n, y = n, xx = n, xy = n, yy = n;
-  for (int row = 0; row < size; row += 8) {
+  for (int row = 0; row < rows; row += 8) {
     const auto* from = reinterpret_cast<const int*>(w.bytes + row * w.stride);
-    const __m256i valid = _mm256_cmpgt_epi32(_mm256_set1_epi32(size - row), lane);
+    const __m256i valid = _mm256_cmpgt_epi32(_mm256_set1_epi32(rows - row), lane);
     const __m256i words = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), from, at, valid, 1);
     const __m256i bits = _mm256_and_si256(_mm256_srl_epi32(words, _mm_cvtsi32_si128(w.shift)), inside);
     const __m256i low = _mm256_and_si256(bits, half_byte);

@@ -86,10 +86,24 @@ TEST_CASE("kernels subsample as the portable code does") {
   }
 }
 
+/// About the columns' middle.
+Moments moments_one_by_one(ConstBitView mask, GridPoint at, WindowColumns columns, int radius) {
+  Moments m;
+  const int middle = at.x + columns.middle();
+  for (int y = at.y - radius; y <= at.y + radius; ++y) {
+    for (int x = at.x + columns.first; x < at.x + columns.first + columns.count; ++x) {
+      if (!mask.get(x, y)) continue;
+      const int dx = x - middle, dy = y - at.y;
+      m = {m.n + 1, m.x + dx, m.y + dy, m.xx + dx * dx, m.xy + dx * dy, m.yy + dy * dy};
+    }
+  }
+  return m;
+}
+
 TEST_CASE("moments of a window are those of its pixels, one by one") {
   constexpr int width = 130, height = 40;
   for (const Kernels& kernels : test::runnable_tables()) {
-    for (const int radius : {3, 5, 7, 10, 14}) {
+    for (const int radius : {3, 5, 7, 10, 11, 14, 15}) {
       Rng rng(7);
       test::Bits mask(width, height);
       for (int i = 0; i < width * height / 4; ++i) {
@@ -98,15 +112,8 @@ TEST_CASE("moments of a window are those of its pixels, one by one") {
       for (int i = 0; i < 300; ++i) {
         const int cx = static_cast<int>(rng.below(width));
         const int cy = static_cast<int>(rng.below(height));
-        Moments want;
-        for (int y = std::max(cy - radius, 0); y <= std::min(cy + radius, height - 1); ++y) {
-          for (int x = std::max(cx - radius, 0); x <= std::min(cx + radius, width - 1); ++x) {
-            if (!mask.view().get(x, y)) continue;
-            const int dx = x - cx, dy = y - cy;
-            want = {want.n + 1, want.x + dx, want.y + dy, want.xx + dx * dx, want.xy + dx * dy, want.yy + dy * dy};
-          }
-        }
         const GridPoint at{static_cast<std::int16_t>(cx), static_cast<std::int16_t>(cy)};
+        const Moments want = moments_one_by_one(mask.view(), at, {-radius, 2 * radius + 1}, radius);
         CAPTURE(kernels.name);
         CAPTURE(radius);
         CAPTURE(cx);
@@ -126,18 +133,21 @@ TEST_CASE("moments of sixteen windows are those of each, and of those that are n
     for (int y = 0; y < mask.height; ++y) {
       for (int x = 0; x < width; ++x) mask.view().set(x, y, rng.below(4) >= density);
     }
-    const int radius = 1 + static_cast<int>(rng.below(max_window_radius));
-    ProbeWindows windows{reinterpret_cast<const std::uint8_t*>(mask.words.data()), words_for(width) * 8, radius};
+    const int radius = 1 + static_cast<int>(rng.below(max_moments_radius));
+    const WindowParts parts = parts_of(radius);
+    const WindowColumns& columns = parts.part[rng.below(static_cast<std::uint32_t>(parts.count))];
+    ProbeWindows windows{reinterpret_cast<const std::uint8_t*>(mask.words.data()), words_for(width) * 8, columns.count,
+                         radius};
     Moments want[probe_lanes];
     for (int i = 0; i < probe_lanes; ++i) {
       const GridPoint at{static_cast<std::int16_t>(rng.below(static_cast<std::uint32_t>(width))),
                          static_cast<std::int16_t>(rng.below(50))};
       MomentWindow window;
-      if (!make_window(mask.view(), at, radius, window)) continue;
+      if (!make_window(mask.view(), at, columns, radius, window)) continue;
       windows.asked |= 1U << i;
       windows.offset[i] = static_cast<std::int32_t>(window.bytes - windows.bytes);
       windows.shift[i] = window.shift;
-      want[i] = moments_around(mask.view(), at, radius, word_kernels());
+      want[i] = moments_one_by_one(mask.view(), at, columns, radius);
     }
     for (const Kernels& kernels : test::runnable_tables()) {
       if (kernels.probes.moments == nullptr) continue;
