@@ -12,13 +12,15 @@ struct Gather {
   const float* weights;  // not logarithms
   ClusterIndex& index;
   float radius, angle;
+  std::array<std::uint16_t, max_particles> free{};  // those that no cluster has taken yet, in their order
+  int free_count = 0;
 
   /// Calls `take(i, dx, dy, dt)` for each free particle near `about`, with its difference to it: pi is no edge.
   template <typename Take>
   void for_each_near(const Pose2& about, Take take) const {
     const float radius2 = radius * radius;
-    for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] != no_cluster) continue;
+    for (int k = 0; k < free_count; ++k) {
+      const int i = free[static_cast<std::size_t>(k)];
       const float dx = particles.x[i] - about.x;
       const float dy = particles.y[i] - about.y;
       if (!(dx * dx + dy * dy < radius2)) continue;
@@ -65,11 +67,22 @@ struct Gather {
 
   [[nodiscard]] int heaviest_free() const {
     int best = -1;
-    for (int i = 0; i < particles.count; ++i) {
-      if (index[static_cast<std::size_t>(i)] != no_cluster) continue;
+    for (int k = 0; k < free_count; ++k) {
+      const int i = free[static_cast<std::size_t>(k)];
       if (best < 0 || particles.log_weight[i] > particles.log_weight[best]) best = i;
     }
     return best;
+  }
+
+  /// The first cluster takes most, and the others need not ask for them again.
+  void forget_taken() {
+    int left = 0;
+    for (int k = 0; k < free_count; ++k) {
+      const std::uint16_t i = free[static_cast<std::size_t>(k)];
+      free[static_cast<std::size_t>(left)] = i;
+      left += index[i] == no_cluster ? 1 : 0;
+    }
+    free_count = left;
   }
 };
 
@@ -107,6 +120,9 @@ void find_clusters(ParticleView particles, float radius, float angle, float* scr
     total += scratch[i];
   }
   Gather gather{particles, scratch, index, radius, angle};
+  for (; gather.free_count < particles.count; ++gather.free_count) {
+    gather.free[static_cast<std::size_t>(gather.free_count)] = static_cast<std::uint16_t>(gather.free_count);
+  }
   while (!clusters.full()) {
     const int seed = gather.heaviest_free();
     if (seed < 0) break;
@@ -120,6 +136,7 @@ void find_clusters(ParticleView particles, float radius, float angle, float* scr
     const auto id = static_cast<std::uint8_t>(clusters.size());
     if (c.mass > 0.0F) gather.take(c, id);
     index[static_cast<std::size_t>(seed)] = id;  // also when the mean has moved away: every turn takes one at least
+    gather.forget_taken();
     c.mass = total > 0.0F ? c.mass / total : 0.0F;
     clusters.push_back(c);
   }
