@@ -4,29 +4,27 @@
 #include <algorithm>
 
 #include "vision/image/bit_ops.h"
-#include "vision/image/morphology.h"
+#include "vision/image/neighbour_words.h"
 #include "vision/line_extent.h"
 
 namespace touchline {
 namespace {
 
-constexpr int zone_px = 4;
+constexpr int zone_px = edge_side_px + 1;
 
 /// The pixels of a word in whose row, or the one above or below, a mask has a pixel in the same or the next column.
 BitWord beside(ConstBitView mask, int y, int i) {
-  const int words = words_for(mask.width);
-  BitWord here = 0, before = 0, after = 0;
+  BitWord near = 0;
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, mask.height - 1); ++v) {
-    const BitWord* row = mask.row(v);
-    here |= row[i];
-    if (i > 0) before |= row[i - 1];
-    if (i + 1 < words) after |= row[i + 1];
+    const RowTriple row = row_triple(mask.row(v), i, words_for(mask.width));
+    near |= row.west | row.here | row.east;
   }
-  return here | here << 1 | here >> 1 | before >> (bits_per_word - 1) | after << (bits_per_word - 1);
+  return near;
 }
 
 /// Adds to a mask all that lies within zone_px of the pixels of a word.
 void add_surroundings(BitWord word, int y, int i, BitView mask) {
+  static_assert(zone_px == 4, "as far as these steps reach");
   BitWord here = word | word << 1 | word >> 1;
   here |= here << 1 | here >> 1;
   here |= here << 2 | here >> 2;
@@ -115,32 +113,17 @@ BitWord between_carpet(const EdgeZoneInput& input, const Place& at, BitWord whit
 
 }  // namespace
 
-void find_edge_zone(const EdgeZoneInput& input, BitView zone, const Kernels& kernels) {
-  const int words = words_for(zone.width);
-  const bool by_rows = kernels.join_squares != nullptr;  // whole rows, whatever is in them
-  if (by_rows) {
-    copy(input.lines, zone);
-    dilate(zone, 3, kernels.join_squares);
-    invert(zone);
-    and_with(zone, input.white);
-    and_with(zone, input.region);
-  } else {
-    clear(zone);
-  }
+void find_edge_zone(const EdgeZoneInput& input, BitView zone) {
+  clear(zone);
   for (int y = 0; y < zone.height; ++y) {
-    for (int i = 0; i < words; ++i) {
-      BitWord open = by_rows ? zone.row(y)[i] : input.white.row(y)[i] & input.region.row(y)[i];
+    for (int i = 0; i < words_for(zone.width); ++i) {
+      BitWord open = input.white.row(y)[i] & input.region.row(y)[i];
       if (open == 0) continue;
-      if (by_rows) {
-        zone.row(y)[i] = between_carpet(input, {y, i}, open);
-        continue;
-      }
       open &= ~beside(input.lines, y, i);
       if (open != 0) open = between_carpet(input, {y, i}, open);
       if (open != 0) add_surroundings(open, y, i, zone);
     }
   }
-  if (by_rows) dilate(zone, 2 * zone_px + 1, kernels.join_squares);
   and_with(zone, input.region);
 }
 

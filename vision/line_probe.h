@@ -10,7 +10,8 @@
 namespace touchline {
 
 inline constexpr int probe_lanes = 16;
-inline constexpr int probe_half_width_px = 40;    // a line this wide fills the picture
+/// A line wider than that to a side, at a working width of up to 320, fills the picture.
+inline constexpr int probe_half_width_px = 40;
 inline constexpr int probe_side_px = 2;           // how far beyond the mask's edge the carpet is sampled
 inline constexpr std::int32_t probe_one = 65536;  // fixed point of a pixel and of a level of luma
 inline constexpr float probe_descent = 1.0e-4F;   // least of a ray that meets the ground
@@ -61,6 +62,7 @@ struct ProbePicture {
   const std::uint8_t* mask = nullptr;             // of bits
   std::int32_t luma_stride = 0, mask_stride = 0;  // bytes
   std::int32_t width = 0, height = 0;             // of both
+  std::int32_t half_width = 0;  // how far to a side a line is followed, working pixels, at least probe_half_width_px
 };
 
 /// Where the camera is, and what its pixels see.

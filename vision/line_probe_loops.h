@@ -93,7 +93,7 @@ struct Profile {
     I at_v = v + probe_one / 2;
     I reach = whole<L>(-1);
     M open = alive;
-    for (int k = 1; k <= probe_half_width_px && any(open); ++k) {
+    for (int k = 1; k <= picture.half_width && any(open); ++k) {
       at_u += step_u;
       at_v += step_v;
       const I x = at_u >> 16;
@@ -136,7 +136,7 @@ struct Profile {
     // Inward from the carpet, so that a hole in a worn line does no harm.
     I outer = carpet;
     M found = without(open, open);
-    for (int k = 1; k <= 2 * (probe_half_width_px + probe_side_px) && any(open); ++k) {
+    for (int k = 1; k <= 2 * (picture.half_width + probe_side_px) && any(open); ++k) {
       const I at = end - k * step;
       open = open & (at >= 0);
       const I inner = k == 1 ? next : k == 2 ? third : luma(at * sign);

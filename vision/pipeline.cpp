@@ -44,6 +44,7 @@ constexpr int reference_width = 320;  // lengths of the configuration are in wor
 
 Status Pipeline::configure(const VisionConfig& config, const Lens& lens, const char** what) {
   if (const Status status = check_config(config, what); status != Status::ok) return status;
+  if (!(lens.parameters().focal_px > 0.0F)) return refuse(what, "lens");  // never created
   if (static_cast<std::size_t>(config.fifo_depth) > memory_.depth) return refuse(what, "fifo_depth");
   PipelineViews views;
   if (!make_views(memory_, config.work_width, config.work_height, views)) return refuse(what, "work_width");
@@ -169,8 +170,7 @@ void Pipeline::find_candidates(VisionResult& result) {
   const BitView& edges = views_.mask(MaskId::edges);
   // An edge beside a line that is found already adds nothing. The line mask is made later: its memory is free.
   const BitView& zone = views_.mask(MaskId::line_mask);
-  find_edge_zone({views_.mask(MaskId::white), views_.mask(MaskId::green), roi, candidates, result.line_widths}, zone,
-                 config_.kernels);
+  find_edge_zone({views_.mask(MaskId::white), views_.mask(MaskId::green), roi, candidates, result.line_widths}, zone);
   const GrowResult grown = find_edges(result.mean.y, zone, edge_thresholds(carpet_), memory_.canny,
                                       views_.mask(MaskId::scratch), edges, config_.kernels);
   result.counts.dropped_edge_seeds = (ridges.finished ? 0 : 1) + (grown.finished ? 0 : 1);

@@ -33,7 +33,8 @@ class Pipeline {
   explicit Pipeline(const PipelineMemory& memory)
       : memory_(memory), subsampler_(memory.subsample), index_(memory.graph.index) {}
 
-  /// Checks config against the storage; on failure the old configuration stays and `what` names the key, when not null.
+  /// Checks config against the storage; on failure the old configuration stays and `what` names the key ("lens" where
+  /// it was never created), when not null.
   Status configure(const VisionConfig& config, const Lens& lens, const char** what = nullptr);
   /// Runs the chain on one frame. wrong_size, invalid_argument (a number that is not finite, a height <= 0, a camera
   /// beyond the limits above), not_ready (not configured): nothing has changed. `result` refers into the storage and is

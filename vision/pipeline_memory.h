@@ -81,7 +81,7 @@ struct PipelineViews {
   [[nodiscard]] const BitView& mask(MaskId id) const { return masks[static_cast<std::size_t>(id)]; }
 };
 
-/// False when the working size is larger than the memory. Width and height are even.
+/// False when the working size is larger than the memory.
 bool make_views(const PipelineMemory& memory, int width, int height, PipelineViews& views);
 
 }  // namespace touchline

@@ -5,13 +5,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "platform/core/rng.h"
 #include "tests/support/ascii_image.h"
-#include "tests/support/kernel_tables.h"
 #include "vision/image/bit_ops.h"
 #include "vision/line_extent.h"
 
@@ -87,10 +87,10 @@ struct Scene {
   }
 };
 
-Bits zone_of(const Scene& scene, const Kernels& kernels = portable_kernels()) {
+Bits zone_of(const Scene& scene) {
   Bits zone(scene.w, scene.h);
   fill(zone.view());  // nothing of it stays
-  find_edge_zone(scene.input(), zone.view(), kernels);
+  find_edge_zone(scene.input(), zone.view());
   return zone;
 }
 
@@ -110,31 +110,31 @@ Scene drawn(const std::vector<std::string>& rows) {
 
 }  // namespace
 
-TEST_CASE("the zone is what its definition says, by every table") {
-  int pixels = 0;
-  for (const auto& [w, h] : {std::pair{150, 43}, {64, 8}, {65, 17}, {7, 3}, {320, 90}}) {
-    for (const int widest : {8, 200, 1200}) {
-      CAPTURE(widest);
+TEST_CASE("the zone is what its definition says, whatever the reach") {
+  Rng rng(5);
+  for (const auto& [w, h] : {std::pair{150, 43}, {64, 8}, {65, 17}, {7, 3}, {320, 90}, {577, 60}}) {
+    // Widest line in 1/16 pixel, and how much carpet: little, so that far carpet decides, too.
+    for (const auto& [narrowest, widest, carpet] :
+         {std::tuple{0, 8, 12}, {0, 200, 12}, {350, 700, 1}, {600, 720, 1}, {0, 1200, 12}}) {
+      const int width_px = w, widest_line = widest;  // clang lets no binding be captured
+      CAPTURE(width_px);
+      CAPTURE(widest_line);
       Scene scene(w, h);
       scene.white = random_bits(w, h, 3, 1);
-      scene.green = random_bits(w, h, 12, 4);
+      scene.green = random_bits(w, h, carpet, 4);
       scene.region = random_bits(w, h, 70, 2);
       scene.lines = random_bits(w, h, 2, 3);
-      std::mt19937 random(5);
       for (LineWidth& width : scene.widths) {
-        width.slanted = static_cast<std::uint16_t>(random() % static_cast<unsigned>(widest));
+        const std::uint32_t more = rng.below(static_cast<std::uint32_t>(widest - narrowest));
+        width.slanted = static_cast<std::uint16_t>(static_cast<std::uint32_t>(narrowest) + more);
       }
       const Bits expected = scene.expected();
-      pixels += count(expected.view());
-      for (const Kernels& kernels : all_tables()) {
-        CAPTURE(kernels.name);
-        const Bits zone = zone_of(scene, kernels);
-        CHECK(zone == expected);
-        CHECK(padding_is_clear(zone.view()));
-      }
+      if (w > 100) CHECK(count(expected.view()) > 0);
+      const Bits zone = zone_of(scene);
+      CHECK(zone == expected);
+      CHECK(padding_is_clear(zone.view()));
     }
   }
-  CHECK(pixels > 0);
 }
 
 TEST_CASE("white with carpet on both sides is looked at, floor beside the carpet is not") {

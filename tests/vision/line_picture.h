@@ -17,9 +17,11 @@ namespace touchline::test {
 
 class LinePicture {
  public:
-  LinePicture(const Scene& scene, const CameraPose& pose)
-      : projection_(paper_lens(), pose),
-        image_(work_image(paint(scene, projection_))),
+  LinePicture(const Scene& scene, const CameraPose& pose, int width = 320, int height = 240)
+      : w(width),
+        h(height),
+        projection_(paper_lens(), pose),
+        image_(work_image(paint(scene, projection_), w, h)),
         mask_(w, h),
         corners_(static_cast<std::size_t>(ray_columns(w) * ray_rows(h))),
         rays_(projection_, make_grid(), frame_w, frame_h, w, h) {
@@ -36,7 +38,7 @@ class LinePicture {
   [[nodiscard]] LinePointInput input(float line_width) {
     return {image_.view().y, skeleton_.view(), mask_.view(), rays_, line_width, 6.0F};
   }
-  static constexpr int w = 320, h = 240;
+  const int w, h;
 
  private:
   static constexpr int frame_w = 752, frame_h = 480;
@@ -48,7 +50,8 @@ class LinePicture {
   }
   [[nodiscard]] bool is_line(int x, int y) const {
     GroundPoint g;
-    const PixelPoint pixel{(static_cast<float>(x) + 0.5F) * 2.35F, (static_cast<float>(y) + 0.5F) * 2.0F};
+    const PixelPoint pixel{(static_cast<float>(x) + 0.5F) * static_cast<float>(frame_w) / static_cast<float>(w),
+                           (static_cast<float>(y) + 0.5F) * static_cast<float>(frame_h) / static_cast<float>(h)};
     if (!projection_.ground(pixel, g) || math::hypot(g.x, g.y) > 3.0F) return false;
     return image_.y[static_cast<std::size_t>(y * w + x)] > 140;
   }

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "platform/core/rng.h"
@@ -33,10 +34,11 @@ bool find_one(const LinePointInput& input, const WorkPoint& at, const WorkPoint&
   return !points.empty();
 }
 
-std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float line_width) {
-  LinePicture picture(scene, pose);
+std::unique_ptr<Found> find(const Scene& scene, const CameraPose& pose, float line_width, int width = 320,
+                            int height = 240) {
+  LinePicture picture(scene, pose, width, height);
   auto found = std::make_unique<Found>();
-  Bits work(LinePicture::w, LinePicture::h);
+  Bits work(width, height);
   found->counts = find_line_points(picture.input(line_width), work.view(), found->points);
   return found;
 }
@@ -55,8 +57,8 @@ struct RoughInput {
   std::vector<std::uint8_t> luma;
   LinePointInput input;
 
-  RoughInput(const Scene& scene, const CameraPose& pose, Rng& rng) : picture(scene, pose), input(picture.input(0.1F)) {
-    constexpr int w = LinePicture::w, h = LinePicture::h;
+  RoughInput(const Scene& scene, const CameraPose& pose, int w, int h, Rng& rng)
+      : picture(scene, pose, w, h), input(picture.input(0.1F)) {
     mask = skeleton = Bits(w, h);
     luma.assign(static_cast<std::size_t>(w * h), 0);
     for (int y = 0; y < h; ++y) {
@@ -82,12 +84,13 @@ TEST_CASE("every table of kernels gives the same points, bit for bit") {
       {{-4.0F, -4.0F}, {4.0F, 4.0F}, 0.10F, line_white}, {{-4.0F, 4.0F}, {4.0F, -4.0F}, 0.10F, line_white},
       {{0.3F, -4.0F}, {0.3F, 4.0F}, 0.10F, line_white},  {{0.8F, -4.0F}, {0.8F, 4.0F}, 0.10F, line_white},
       {{-4.0F, 0.5F}, {4.0F, 0.5F}, 0.10F, line_white},  {{-4.0F, -0.7F}, {4.0F, -0.7F}, 0.10F, line_white}};
-  for (int view = 0; view < 4; ++view) {
+  // The larger one has windows that are looked at in two parts.
+  for (const auto& [width, height] : {std::pair{320, 240}, {320, 240}, {320, 240}, {640, 480}}) {
     CameraPose pose = usual_pose();
     pose.pitch += rng.uniform(-0.3F, 0.5F);
     pose.yaw = rng.uniform(-math::pi, math::pi);
-    RoughInput rough(scene, pose, rng);
-    Bits work(LinePicture::w, LinePicture::h);
+    RoughInput rough(scene, pose, width, height, rng);
+    Bits work(width, height);
     const auto first = std::make_unique<Found>();
     rough.input.kernels = word_kernels();
     first->counts = find_line_points(rough.input, work.view(), first->points);
@@ -159,6 +162,23 @@ TEST_CASE("a stripe of another width makes no points, and the reason is counted"
   CHECK(wide_field->counts.wrong_width > 60);
 }
 
+TEST_CASE("near lines have as many points in a large picture as in a small one") {
+  // A camera low and down, and a line across the feet: at 640x480 it is more than 80 pixels wide.
+  CameraPose pose = usual_pose();
+  pose.height = 0.20F;
+  pose.pitch = radians(45.0F);
+  Scene scene;
+  scene.stripes = {{{0.10F, -1.0F}, {0.10F, 1.0F}, 0.10F, line_white}};
+  const auto metres = [&](int width, int height) {
+    float sum = 0.0F;
+    for (const LinePoint& p : find(scene, pose, 0.10F, width, height)->points.span()) sum += p.length;
+    return sum;
+  };
+  const float small = metres(320, 240);
+  CHECK(small > 0.5F);
+  CHECK(metres(640, 480) > 0.9F * small);
+}
+
 TEST_CASE("no skeleton, no points") {
   const auto found = find(Scene{}, usual_pose(), 0.10F);
   CHECK(found->points.empty());
@@ -195,13 +215,13 @@ TEST_CASE("with its direction given, a piece too short for the skeleton's axis h
 
 TEST_CASE("of a skeleton that is nothing but clutter not every pixel is asked") {
   LinePicture picture(Scene{}, usual_pose());
-  Bits clutter(LinePicture::w, LinePicture::h);
+  Bits clutter(picture.w, picture.h);
   for (int y = 0; y < clutter.height; y += 2) {
     for (int x = 0; x < clutter.width; x += 2) clutter.view().set(x, y, true);
   }
   LinePointInput input = picture.input(0.05F);
   input.skeleton = clutter.view();
-  Bits work(LinePicture::w, LinePicture::h);
+  Bits work(picture.w, picture.h);
   StaticVector<LinePoint, max_line_points> points;
   const LinePointCounts counts = find_line_points(input, work.view(), points);
   CHECK(points.empty());

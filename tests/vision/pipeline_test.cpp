@@ -145,6 +145,9 @@ TEST_CASE("a configuration that cannot be is refused by name, and the old one st
     REQUIRE(what != nullptr);
     return std::string(what);
   };
+  const char* what = nullptr;
+  CHECK(chain.pipeline.configure(chain.config, Lens{}, &what) == Status::invalid_argument);
+  CHECK(std::string(what) == "lens");
   CHECK(refused([](VisionConfig& c) { c.fifo_depth = 5; }) == "fifo_depth");  // the storage holds four
   CHECK(refused([](VisionConfig& c) { c.work_width = 640; }) == "work_width");
   CHECK(refused([](VisionConfig& c) { c.green_erode_px = 2; }) == "green_erode_px");

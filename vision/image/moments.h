@@ -27,7 +27,7 @@ constexpr Moments moved(const Moments& m, int dx) {
 }
 
 inline constexpr int max_moments_radius = 15;
-inline constexpr int max_window_columns = 21;  // and 7 bits of shift are 28 bits of 32
+inline constexpr int max_window_columns = 21;  // three patterns of seven; with 7 bits of shift, 28 bits of 32
 
 /// Columns of a window, counted from the pixel that it is about.
 struct WindowColumns {
