@@ -50,7 +50,7 @@ golden: build  ## writes the golden outputs anew, for changes of behaviour that 
 accept: program  ## make accept [DATA=folder]: the acceptance figures beside their targets; without DATA the simulator's alone
 	@$(TOUCHLINE) accept $(if $(DATA),"$(DATA)" --figures $(FIGURES) $(if $(REWRITE),--rewrite)) --output $(BUILD)/accept.json
 
-bench:  ## make bench [DATA=folder]: times per stage beside OpenCV's; a table, and build/bench.json
+bench:  ## make bench [DATA=folder] [BENCH_ARGUMENTS=--help]: times per stage beside OpenCV's; a table, and build/bench.json
 	@bash $(NEED) build test backends bench
 	@$(MAKE) --no-print-directory $(BUILD)/CMakeCache.txt
 	@cmake -S . -B $(BUILD) >/dev/null

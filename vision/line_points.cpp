@@ -15,8 +15,8 @@
 namespace touchline {
 namespace {
 
-// Of the skeleton's pixels that give the direction, at a working width of 320. From 448 on it stays 7: a staircase is as
-// high in every picture, and the cost grows with the square.
+// Of the skeleton's pixels that give the direction, at a working width of 320. From 448 on it stays 7: a staircase is
+// as high in every picture, and the cost grows with the square.
 constexpr int direction_radius_px = 5;
 // Of the variance along, 10 px^2 for a radius of 5: a staircase has 0.1 px^2 across, a line three pixels beside 2.2.
 constexpr float long_most_across = 0.015F;

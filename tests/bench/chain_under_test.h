@@ -7,8 +7,8 @@
 #include <string>
 
 #include "loc/localizer.h"
-#include "platform/processor/fastest_kernels.h"
 #include "tests/bench/bench_frames.h"
+#include "tests/bench/kernel_choice.h"
 #include "vision/pipeline.h"
 #include "vision/pipeline_storage.h"
 
@@ -24,6 +24,9 @@ struct ChainUnderTest {
   Pipeline pipeline{storage.memory()};
   Localizer localizer;
   VisionResult vision;
+  KernelChoice kernels;
+
+  explicit ChainUnderTest(const KernelChoice& choice = {}) : kernels(choice) {}
 
   /// `work_width` x `work_height` up to W x H.
   void configure(const FramePool& pool, int work_width = W, int work_height = H, int particles = 200) {
@@ -34,7 +37,7 @@ struct ChainUnderTest {
     config.work_height = work_height;
     config.fifo_depth = Depth;
     tell_vision(pool.field, config);
-    config.kernels = fastest_kernels();
+    config.kernels = kernels.vision;
     Lens lens;
     require(Lens::create(pool.lens, lens), "lens");
     require(pipeline.configure(config, lens), "pipeline");
@@ -42,7 +45,7 @@ struct ChainUnderTest {
     require(Field::create(pool.field, field), "field");
     LocalizerConfig localizer_config;
     localizer_config.particles = particles;
-    localizer_config.kernels = fastest_loc_kernels();
+    localizer_config.kernels = kernels.localization;
     require(localizer.configure(localizer_config, field), "localizer");
     (void)localizer.reset(Prior{}, 1);
   }

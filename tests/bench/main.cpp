@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The benchmark: paired with OpenCV, then by size. Fails on no figure.
-//   touchline_bench [--data FOLDER] [--json FILE] [--rounds N] [--first-pose PROGRAM] [Google Benchmark's options]
+//   touchline_bench [--data FOLDER] [--rounds N] [--kernels NAME] [--json FILE] [--first-pose PROGRAM]
+//                   [Google Benchmark's options]
 #include <benchmark/benchmark.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -15,8 +16,8 @@
 #include <string>
 #include <string_view>
 
-#include "platform/processor/fastest_kernels.h"
 #include "tests/bench/cpu_clock.h"
+#include "tests/bench/kernel_choice.h"
 #include "tests/bench/paired.h"
 #include "tests/bench/scaling.h"
 
@@ -29,7 +30,21 @@ using namespace touchline::bench;
 struct Options {
   std::string data, json = "bench.json", first_pose;
   int rounds = 7;
+  KernelChoice kernels;
 };
+
+/// Google Benchmark prints its own options behind these.
+void print_help() {
+  std::printf(
+      "touchline_bench: our stages beside OpenCV's, then how our cost grows.\n"
+      "  --data FOLDER         frames of this data set; else of the simulator\n"
+      "  --rounds N            times through all frames, 1 to 1000 [7]\n"
+      "  --kernels NAME        %s [%s, the fastest]\n"
+      "  --json FILE           the medians of the paired stages [bench.json]\n"
+      "  --first-pose PROGRAM  takes the time of this program, first_pose, too; it takes the fastest kernels always\n"
+      "What is below are Google Benchmark's options, for the rows after the tables.\n\n",
+      kernel_names().c_str(), touchline::fastest_kernels().name);
+}
 
 int rounds_of(std::string_view text) {
   int rounds = 0;
@@ -52,9 +67,12 @@ Options take_options(int& argc, char** argv) {
       options.json = argv[++i];
     } else if (key == "--rounds" && value) {
       options.rounds = rounds_of(argv[++i]);
+    } else if (key == "--kernels" && value) {
+      options.kernels = kernels_named(argv[++i]);
     } else if (key == "--first-pose" && value) {
       options.first_pose = argv[++i];
     } else {
+      if (key == "--help") print_help();
       argv[kept++] = argv[i];
     }
   }
@@ -95,7 +113,7 @@ std::string processor_name() {
 void print_run(const Options& options, const FramePool& pool, const PairedResult& r) {
   const std::string processor = processor_name();
   std::printf("Processor: %s; kernels: %s, %s.\n", processor.empty() ? "not named" : processor.c_str(),
-              touchline::fastest_kernels().name, touchline::fastest_loc_kernels().name);
+              options.kernels.vision.name, options.kernels.localization.name);
   std::printf(
       "Frames: %s, %zu views of %d shots, %dx%d RGB24, %.0f MB in rotation; one thread each;\nboth sides in turn; "
       "processor time of the thread, without the clock's own %.2f us a reading.\n",
@@ -124,8 +142,11 @@ void print_run(const Options& options, const FramePool& pool, const PairedResult
     std::ofstream(raw, std::ios::binary)
         .write(reinterpret_cast<const char*>(shot.data()), static_cast<std::streamsize>(shot.size()));
     const double us = run_first_pose(options.first_pose, raw);
-    char note[80];
-    std::snprintf(note, sizeof note, "%.1f times a warm frame to pose", us / r.frame_to_pose_us.median);
+    const char* const fastest = touchline::fastest_kernels().name;
+    const bool same = std::string_view(options.kernels.vision.name) == fastest;
+    char note[120];
+    std::snprintf(note, sizeof note, "%.1f times a warm frame to pose%s%s", us / r.frame_to_pose_us.median,
+                  same ? "" : "; with kernels: ", same ? "" : fastest);
     figures.push_back({"process start to first pose", us, us / copy, us > 0.0 ? note : "could not be run"});
     std::filesystem::remove(raw);
   }
@@ -143,13 +164,16 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     const FramePool pool = options.data.empty() ? simulated_frames() : recorded_frames(options.data);
-    const PairedResult result = run_paired(pool, options.rounds);
+    const PairedResult result = run_paired(pool, options.rounds, options.kernels);
     print_run(options, pool, result);
     if (!write_json(options.json, result.rows)) {
       std::fprintf(stderr, "touchline_bench: %s cannot be written\n", options.json.c_str());
       return 2;
     }
-    register_scaling(pool);
+    std::puts(
+        "Where Google Benchmark warns below of a library that was built as DEBUG, it means its own, not touchline.\n");
+    std::fflush(stdout);  // the warning goes to the other stream
+    register_scaling(pool, options.kernels);
     benchmark::RunSpecifiedBenchmarks();
     return 0;
   } catch (const std::exception& error) {

@@ -78,8 +78,8 @@ const std::vector<StageGroup>& groups() {
 
 class PairedRun {
  public:
-  explicit PairedRun(const FramePool& pool)
-      : pool_(pool), chain_(std::make_unique<ChainUnderTest<>>()), opencv_(width, height) {
+  PairedRun(const FramePool& pool, const KernelChoice& kernels)
+      : pool_(pool), chain_(std::make_unique<ChainUnderTest<>>(kernels)), opencv_(width, height) {
     chain_->configure(pool);
     Lens lens;
     require(Lens::create(pool.lens, lens), "lens");
@@ -223,7 +223,8 @@ class PairedRun {
     iou_skeleton_.push_back(overlap(skeleton, opencv_.skeleton()));
     skeleton_covered_.push_back(covered(skeleton, opencv_.skeleton()));
     copy(v.line_mask, thinned_.view());
-    same_mask_ours_.push_back(timed([&] { (void)thin(thinned_.view(), thinning_.memory(), fastest_kernels().thin); }));
+    same_mask_ours_.push_back(
+        timed([&] { (void)thin(thinned_.view(), thinning_.memory(), chain_->kernels.vision.thin); }));
     cv::Mat theirs;
     same_mask_opencv_.push_back(opencv_thinning(lines, theirs));
     iou_same_mask_.push_back(overlap(to_mat(thinned_.view()), theirs));
@@ -250,9 +251,9 @@ class PairedRun {
 
 }  // namespace
 
-PairedResult run_paired(const FramePool& pool, int rounds) {
+PairedResult run_paired(const FramePool& pool, int rounds, const KernelChoice& kernels) {
   prepare_opencv();
-  PairedRun run(pool);
+  PairedRun run(pool, kernels);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < pool.views.size(); ++i) run.run_view(i, (i + static_cast<std::size_t>(round)) % 2 == 0);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/bench/bench_frames.h"
+#include "tests/bench/kernel_choice.h"
 #include "tests/bench/report.h"
 
 namespace touchline::bench {
@@ -24,6 +25,6 @@ struct PairedResult {
 };
 
 /// `rounds` times through all views of the pool.
-PairedResult run_paired(const FramePool& pool, int rounds);
+PairedResult run_paired(const FramePool& pool, int rounds, const KernelChoice& kernels);
 
 }  // namespace touchline::bench

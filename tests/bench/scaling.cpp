@@ -31,8 +31,9 @@ void time_memcpy(benchmark::State& state, const FramePool& pool) {
 }
 
 /// All of vision at one working size, view after view.
-void time_vision(benchmark::State& state, const FramePool& pool, int work_width, int work_height) {
-  auto chain = std::make_unique<ChainUnderTest<640, 480, 4>>();
+void time_vision(benchmark::State& state, const FramePool& pool, const KernelChoice& kernels, int work_width,
+                 int work_height) {
+  auto chain = std::make_unique<ChainUnderTest<640, 480, 4>>(kernels);
   chain->configure(pool, work_width, work_height);
   std::size_t i = 0;
   for (auto _ : state) {
@@ -76,12 +77,13 @@ struct LocalizerView {
   }
 };
 
-void time_localizer(benchmark::State& state, const FramePool& pool, int particles, bool tracking) {
+void time_localizer(benchmark::State& state, const FramePool& pool, const KernelChoice& kernels, int particles,
+                    bool tracking) {
   LocalizerView seen(pool);
   auto localizer = std::make_unique<Localizer>();
   LocalizerConfig config;
   config.particles = particles;
-  config.kernels = fastest_loc_kernels();
+  config.kernels = kernels.localization;
   require(localizer->configure(config, seen.field), "localizer");
   const Prior near{.kind = PriorKind::pose, .pose = seen.truth, .sigma_xy = 0.1F, .sigma_theta = radians(5.0F)};
   require(localizer->reset(tracking ? near : Prior{}, 1), "prior");
@@ -144,8 +146,8 @@ void time_digestion(benchmark::State& state, int radius, int pixels) {
 }
 
 /// The worst frames, all the way to the pose, by a robot that does not know where it is.
-void time_worst(benchmark::State& state, const FramePool& pool, WorstKind kind) {
-  auto chain = std::make_unique<ChainUnderTest<>>();
+void time_worst(benchmark::State& state, const FramePool& pool, const KernelChoice& kernels, WorstKind kind) {
+  auto chain = std::make_unique<ChainUnderTest<>>(kernels);
   chain->configure(pool);
   std::vector<std::vector<std::uint8_t>> frames;
   for (std::uint64_t i = 0; i < 60; ++i) frames.push_back(worst_frame(kind, pool.width, pool.height, i + 1));
@@ -163,8 +165,8 @@ void time_worst(benchmark::State& state, const FramePool& pool, WorstKind kind) 
   state.counters["dropped"] = c.dropped();
 }
 
-void time_frame_to_pose(benchmark::State& state, const FramePool& pool) {
-  auto chain = std::make_unique<ChainUnderTest<>>();
+void time_frame_to_pose(benchmark::State& state, const FramePool& pool, const KernelChoice& kernels) {
+  auto chain = std::make_unique<ChainUnderTest<>>(kernels);
   chain->configure(pool);
   std::size_t i = 0;
   for (auto _ : state) {
@@ -183,19 +185,20 @@ void add(const std::string& name, Function function) {
 
 }  // namespace
 
-void register_scaling(const FramePool& pool) {
+void register_scaling(const FramePool& pool, const KernelChoice& kernels) {
   add("memcpy of one frame", [&pool](benchmark::State& s) { time_memcpy(s, pool); });
-  add("frame to pose", [&pool](benchmark::State& s) { time_frame_to_pose(s, pool); });
+  add("frame to pose", [&pool, kernels](benchmark::State& s) { time_frame_to_pose(s, pool, kernels); });
   // Each twice the area of the one before.
   for (const auto& [w, h] : {std::pair{160, 120}, {226, 170}, {320, 240}, {452, 340}, {640, 480}}) {
     add("vision/" + std::to_string(w) + "x" + std::to_string(h),
-        [&pool, w = w, h = h](benchmark::State& s) { time_vision(s, pool, w, h); });
+        [&pool, kernels, w = w, h = h](benchmark::State& s) { time_vision(s, pool, kernels, w, h); });
   }
   for (const int n : {50, 100, 200, 400, 800, 1000}) {
     add("localizer/particles:" + std::to_string(n),
-        [&pool, n](benchmark::State& s) { time_localizer(s, pool, n, true); });
+        [&pool, kernels, n](benchmark::State& s) { time_localizer(s, pool, kernels, n, true); });
   }
-  add("localizer from nothing/particles:200", [&pool](benchmark::State& s) { time_localizer(s, pool, 200, false); });
+  add("localizer from nothing/particles:200",
+      [&pool, kernels](benchmark::State& s) { time_localizer(s, pool, kernels, 200, false); });
   for (const int radius : {3, 5, 7, 10, 14, 20}) {
     add("digestion/radius:" + std::to_string(radius),
         [radius](benchmark::State& s) { time_digestion(s, radius, 1500); });
@@ -205,7 +208,7 @@ void register_scaling(const FramePool& pool) {
   }
   for (const WorstKind kind : worst_kinds) {
     add(std::string("worst frame/") + to_string(kind),
-        [&pool, kind](benchmark::State& s) { time_worst(s, pool, kind); });
+        [&pool, kernels, kind](benchmark::State& s) { time_worst(s, pool, kernels, kind); });
   }
 }
 

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "tests/bench/bench_frames.h"
+#include "tests/bench/kernel_choice.h"
 
 namespace touchline::bench {
 
 /// Registers everything; `pool` outlives the runs.
-void register_scaling(const FramePool& pool);
+void register_scaling(const FramePool& pool, const KernelChoice& kernels);
 
 }  // namespace touchline::bench
