@@ -15,6 +15,7 @@
 #include "vision/image/ridge_search.h"
 #include "vision/image/same_size.h"
 #include "vision/image/thinning_pass.h"
+#include "vision/image/unpack.h"
 #include "vision/line_probe.h"
 #include "vision/white_span_search.h"
 
@@ -81,6 +82,7 @@ struct BlockRow;
 struct Kernels {
   const char* name = nullptr;
   HalveFrame halve_frame = nullptr;  // null: not offered
+  UnpackKernels unpack;              // none: not offered
   SubsampleKernels subsample;
   ChangeRows change_rows = nullptr;
   MeanOfFour mean_of_four = nullptr;  // null: not offered

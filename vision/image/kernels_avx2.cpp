@@ -16,6 +16,7 @@
 #include "vision/image/ridge_search_loops.h"
 #include "vision/image/subsample_loops.h"
 #include "vision/image/thinning_loops.h"
+#include "vision/image/unpack_rows_loops.h"
 #include "vision/image/window_moments_avx2.h"
 #include "vision/line_probe_loops.h"
 
@@ -25,6 +26,7 @@ Kernels avx2_kernels() {
   return {
       .name = "avx2",
       .halve_frame = halve_avx2::halve_frame,
+      .unpack = unpack_rows::kernels(),
       .subsample = subsample_loops::kernels(),
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,

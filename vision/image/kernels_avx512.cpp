@@ -28,6 +28,7 @@
 #include "vision/image/reduce_columns_avx512.h"
 #include "vision/image/ridge_search_avx512.h"
 #include "vision/image/thinning_loops.h"
+#include "vision/image/unpack_rows_loops.h"
 #include "vision/line_probe_loops.h"
 #include "vision/probe_moments_avx512.h"
 #include "vision/white_spans_avx512.h"
@@ -38,6 +39,7 @@ Kernels avx512_kernels() {
   return {
       .name = "avx512",
       .halve_frame = halve_avx512::halve_frame,
+      .unpack = unpack_rows::kernels(),
       .subsample = subsample_loops::kernels(reduce_avx512::reduce_columns),
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,

@@ -20,6 +20,7 @@ Kernels portable_kernels() {
   return {
       .name = "portable",
       .halve_frame = nullptr,
+      .unpack = {},
       .subsample = subsample_loops::kernels(),
       .change_rows = change_rows::run,
       .mean_of_four = mean_rows::mean_of_four,
@@ -44,6 +45,7 @@ Kernels word_kernels() {
   return {
       .name = "words",
       .halve_frame = nullptr,
+      .unpack = {},
       .subsample = subsample_loops::kernels(),
       .change_rows = change_rows::run,
       .mean_of_four = nullptr,

@@ -147,7 +147,8 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   const auto columns = static_cast<std::size_t>(work_width);
   const auto frame_columns = static_cast<std::size_t>(frame_width);
   if (memory_.first_column.size() < columns || memory_.weights.size() < 2 * columns + frame_columns ||
-      memory_.column_sums.size() < 3 * frame_columns + subsample_lanes || memory_.unpacked.size() < 3 * frame_columns ||
+      memory_.column_sums.size() < 3 * frame_columns + subsample_lanes ||
+      memory_.unpacked.size() < unpacked_rows * 3 * frame_columns ||
       memory_.work_rows.size() < static_cast<std::size_t>(10 * whole_lanes(work_width))) {
     return Status::capacity;
   }
@@ -173,6 +174,7 @@ Status Subsampler::configure(int frame_width, int frame_height, int work_width, 
   halve_frame_ = fits_kernels(kernels) ? kernels.halve_frame : nullptr;
   loops_ = kernels.subsample;
   change_rows_ = kernels.change_rows;
+  unpack_ = kernels.unpack;
   if (halve_frame_ != nullptr) set_kernel_weights();
   configured_ = true;
   return Status::ok;
@@ -237,7 +239,7 @@ void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) cons
   halved.first_column = memory_.first_column.data();
   halved.weights = reinterpret_cast<const std::int8_t*>(memory_.weights.data() + pair_weights(period_, taps_));
   halved.columns = horizontal_.target;
-  halved.rows = vertical_.target;
+  halved.rows = out.y.height;
   halved.period = period_;
   halved.scale = scale_;
   halved.matrix = colour_matrix(frame.format);
@@ -248,6 +250,27 @@ void Subsampler::run_kernels(const FrameView& frame, const Yuv420View& out) cons
   halved.cb_stride = out.cb.stride;
   halved.cr_stride = out.cr.stride;
   halve_frame_(halved);
+}
+
+/// As many rows as there is room for, in whole rows of chroma: four rows of the camera each.
+void Subsampler::unpack_and_run_kernels(const FrameView& frame, const Yuv420View& out) const {
+  const int row_bytes = 3 * frame.width;
+  constexpr int step = static_cast<int>(unpacked_rows);
+  const int room = static_cast<int>(memory_.unpacked.size()) / row_bytes / step * step;
+  std::uint8_t* const rows = memory_.unpacked.data();
+  for (int first = 0; first < frame.height; first += room) {
+    FrameView part = frame;
+    part.height = std::min(room, frame.height - first);
+    part.data = rows;
+    part.stride_bytes = row_bytes;
+    for (int y = 0; y < part.height; ++y) (void)unpack_row(frame, first + y, rows + y * row_bytes, unpack_);
+    Yuv420View to = out;
+    to.y.data += first / 2 * out.y.stride;
+    to.cb.data += first / 4 * out.cb.stride;
+    to.cr.data += first / 4 * out.cr.stride;
+    to.y.height = part.height / 2;
+    run_kernels(part, to);
+  }
 }
 
 void Subsampler::keep_size(const FrameView& frame, const Yuv420View& out) const {
@@ -276,7 +299,7 @@ void Subsampler::make_work_row(const FrameView& frame, int y, const Channels& ou
   } else {
     bool first = true;
     for_each_tap(vertical_, y, [&](int source, int weight) {
-      loops_.add_row(unpack_row(frame, source, memory_.unpacked.data()), samples, weight, first, sums);
+      loops_.add_row(unpack_row(frame, source, memory_.unpacked.data(), unpack_), samples, weight, first, sums);
       first = false;
     });
   }
@@ -313,8 +336,8 @@ Status Subsampler::run(const FrameView& frame, Yuv420View out) {
     keep_size(frame, out);
     return Status::ok;
   }
-  if (halve_frame_ != nullptr && needs_no_unpacking(frame.format)) {
-    run_kernels(frame, out);
+  if (halve_frame_ != nullptr) {
+    needs_no_unpacking(frame.format) ? run_kernels(frame, out) : unpack_and_run_kernels(frame, out);
     return Status::ok;
   }
   const ColourMatrix matrix = colour_matrix(frame.format);

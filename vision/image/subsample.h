@@ -18,10 +18,11 @@ struct SubsampleMemory {
   std::span<std::uint16_t> first_column;  // a working column
   std::span<std::uint16_t> weights;       // 2 a working column and 1 a frame column
   std::span<std::uint16_t> column_sums;   // 3 a frame column, and a vector
-  std::span<std::uint8_t> unpacked;       // 3 a frame column
+  std::span<std::uint8_t> unpacked;       // 3 a frame column, of unpacked_rows rows
   std::span<std::uint16_t> work_rows;     // 10 a working column, with columns rounded up to whole vectors
 };
-inline constexpr int subsample_lanes = 8;  // of a vector
+inline constexpr int subsample_lanes = 8;        // of a vector
+inline constexpr std::size_t unpacked_rows = 4;  // of the camera, for a row of chroma where it is halved
 constexpr int whole_lanes(int columns) { return (columns + subsample_lanes - 1) / subsample_lanes * subsample_lanes; }
 
 /// Storage for frames of up to FrameWidth and working images of up to WorkWidth columns: what has to stay,
@@ -34,7 +35,7 @@ struct SubsampleTables {
 template <int FrameWidth, int WorkWidth>
 struct SubsampleRows {
   std::array<std::uint16_t, 3 * std::size_t{FrameWidth} + std::size_t{subsample_lanes}> column_sums{};
-  std::array<std::uint8_t, 3 * std::size_t{FrameWidth}> unpacked{};
+  std::array<std::uint8_t, unpacked_rows * 3 * std::size_t{FrameWidth}> unpacked{};
   std::array<std::uint16_t, 10 * std::size_t{whole_lanes(WorkWidth)}> work_rows{};
 };
 template <int FrameWidth, int WorkWidth>
@@ -95,6 +96,7 @@ class Subsampler {
   void set_kernel_weights();
   [[nodiscard]] bool fits_kernels(const Kernels& kernels) const;
   void run_kernels(const FrameView& frame, const Yuv420View& out) const;
+  void unpack_and_run_kernels(const FrameView& frame, const Yuv420View& out) const;
   void keep_size(const FrameView& frame, const Yuv420View& out) const;
   [[nodiscard]] Channels work_row(int index) const;
   void make_work_row(const FrameView& frame, int y, const Channels& out);
@@ -107,6 +109,7 @@ class Subsampler {
   std::uint16_t scale_ = 0;           // from sums to 8.6 bit, in 1/65536
   HalveFrame halve_frame_ = nullptr;  // where the sizes fit it
   SubsampleKernels loops_;
+  UnpackKernels unpack_;
   ChangeRows change_rows_ = nullptr;
   bool wide_ = false;  // sums need 32 bit: the weights are rounded
   bool configured_ = false;

@@ -5,8 +5,8 @@
 namespace touchline {
 namespace {
 
-void unpack_rgb565(const std::uint8_t* row, int width, std::uint8_t* out) {
-  for (int x = 0; x < width; ++x) {
+void unpack_rgb565(const std::uint8_t* row, int first, int width, std::uint8_t* out) {
+  for (int x = first; x < width; ++x) {
     const unsigned pixel = row[2 * x] | static_cast<unsigned>(row[2 * x + 1]) << 8;
     const unsigned red = pixel >> 11, green = (pixel >> 5) & 63U, blue = pixel & 31U;
     out[3 * x] = static_cast<std::uint8_t>(red << 3 | red >> 2);
@@ -15,8 +15,8 @@ void unpack_rgb565(const std::uint8_t* row, int width, std::uint8_t* out) {
   }
 }
 
-void unpack_yuyv(const std::uint8_t* row, int width, std::uint8_t* out) {
-  for (int x = 0; x + 1 < width; x += 2) {
+void unpack_yuyv(const std::uint8_t* row, int first, int width, std::uint8_t* out) {
+  for (int x = first; x + 1 < width; x += 2) {
     const std::uint8_t* pair = row + 2 * x;
     for (int i = 0; i < 2; ++i) {
       out[3 * (x + i)] = pair[2 * i];
@@ -28,14 +28,16 @@ void unpack_yuyv(const std::uint8_t* row, int width, std::uint8_t* out) {
 
 }  // namespace
 
-const std::uint8_t* unpack_row(const FrameView& frame, int y, std::uint8_t* buffer) {
+const std::uint8_t* unpack_row(const FrameView& frame, int y, std::uint8_t* buffer, const UnpackKernels& kernels) {
   const std::uint8_t* row = frame.data + static_cast<std::ptrdiff_t>(y) * frame.stride_bytes;
   if (frame.format == PixelFormat::rgb565) {
-    unpack_rgb565(row, frame.width, buffer);
+    const int done = kernels.rgb565 != nullptr ? kernels.rgb565(row, frame.width, buffer) : 0;
+    unpack_rgb565(row, done, frame.width, buffer);
     return buffer;
   }
   if (frame.format == PixelFormat::yuyv) {
-    unpack_yuyv(row, frame.width, buffer);
+    const int done = kernels.yuyv != nullptr ? kernels.yuyv(row, frame.width, buffer) : 0;
+    unpack_yuyv(row, done, frame.width, buffer);
     return buffer;
   }
   return row;

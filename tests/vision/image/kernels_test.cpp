@@ -72,7 +72,8 @@ TEST_CASE("kernels subsample as the portable code does") {
                         {13, 8, 6, 4},
                         {1280, 720, 226, 170},
                         {1280, 960, 86, 64}}) {
-    for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24}) {
+    for (const PixelFormat format : {PixelFormat::rgb24, PixelFormat::bgr24, PixelFormat::yuyv, PixelFormat::rgb565}) {
+      if (format == PixelFormat::yuyv && s.width % 2 != 0) continue;
       const auto pixels = noise(static_cast<std::size_t>(s.width * s.height * 3), 4);
       const FrameView frame{format, pixels.data(), s.width, s.height, s.width * 3};
       CAPTURE(s.width);
