@@ -2,6 +2,7 @@
 // The arguments of `touchline`, and what happens with the outcome of a command.
 #include "platform/host/command_line.h"
 
+#include <algorithm>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -206,12 +207,27 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv, Commands& co
   return run(app, commands, out, err);
 }
 
-/// "help COMMAND" is "COMMAND --help".
-std::vector<const char*> understood(int argc, const char* const* argv) {
+bool is_command(const CLI::App& app, const std::string& word) {
+  const auto commands = app.get_subcommands({});
+  return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
+}
+
+/// "help COMMAND" is "COMMAND --help". A word in the command's place that is none stands alone, for a --help behind it
+/// would hide the mistake.
+std::vector<const char*> understood(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
-  if (argc < 2 || std::string(argv[1]) != "help") return words;
-  words.erase(words.begin() + 1);
-  if (words.size() <= 2) words.push_back("--help");
+  bool help = false;
+  while (words.size() >= 2 && std::string(words[1]) == "help") {
+    help = true;
+    words.erase(words.begin() + 1);
+  }
+  const std::string first = words.size() < 2 ? "--help" : words[1];
+  const bool option = first.starts_with("-");
+  if (!option && !is_command(app, first)) {
+    words.resize(2);
+  } else if (help) {
+    words.insert(words.begin() + (option ? 1 : 2), "--help");
+  }
   return words;
 }
 
@@ -222,7 +238,6 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
   app.require_subcommand(0, 1);
   app.footer(std::string("Each command has its own --help with an example.") + exit_text);
   app.set_version_flag("--version", "touchline " TOUCHLINE_VERSION, "the program's version");
-  const std::vector<const char*> words = understood(argc, argv);
   Commands commands;
   commands.demo.live = terminal;
   add_evaluate(app, commands.evaluate);
@@ -233,6 +248,7 @@ int touchline_main(int argc, const char* const* argv, std::ostream& out, std::os
   add_command(app, "memory", "what the chain's state takes, struct by struct", "memory");
   add_robot(app, commands.robot);
   try {
+    const std::vector<const char*> words = understood(app, argc, argv);
     const int status = parse_and_run(app, static_cast<int>(words.size()), words.data(), commands, out, err);
     check_written(out);
     return status;

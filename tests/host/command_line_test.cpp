@@ -84,7 +84,18 @@ TEST_CASE("version and help in the words that people try first") {
   CHECK(run({"help"}).out == run({"--help"}).out);
   CHECK(run({"help", "evaluate"}).out == run({"evaluate", "--help"}).out);
   CHECK(run({"help", "evaluate"}).status == 0);
-  CHECK(run({"help", "fly"}).out == run({"--help"}).out);
+  CHECK(run({"help", "--help"}).out == run({"--help"}).out);
+  CHECK(run({"help", "help"}).out == run({"--help"}).out);
+}
+
+TEST_CASE("a command that there is not is the same error when help about it is asked for") {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"lokate"}, {"help", "lokate"}, {"lokate", "--help"}, {"help", "lokate", "--help"}}) {
+    const Run result = run(words);
+    check_refused(result, "touchline: lokate: no such command; did you mean locate?");
+    CHECK(result.out.empty());
+  }
+  check_refused(run({"help", "fly"}), "fly: no such command; there are evaluate, locate");
 }
 
 TEST_CASE("bad usage is status 2, in one line of the program's own") {
