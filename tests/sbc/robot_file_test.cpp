@@ -217,6 +217,12 @@ TEST_CASE("coefficients that are left out are 0, but for the first") {
 
 TEST_CASE("a key in a wrong table is told its own, and names are those of the example, each once") {
   CHECK(contains(error_of("[lens]\nwidth_px = 640\n"), ":2: [lens] width_px: unknown key; it belongs to [camera]"));
+  for (const char* key : {"model", "focal_px", "cx", "cy", "cx_px", "cy_px", "max_theta_deg", "alpha", "a", "b", "k1",
+                          "k2", "k3", "k4"}) {
+    const std::string name = key;
+    CHECK(contains(error_of("[camera]\n" + name + " = 1\n"),
+                   ":2: [camera] " + name + ": unknown key; it belongs to [lens]"));
+  }
   CHECK(contains(error_of("particles = 100\n"), ":1: particles: unknown key; it belongs to [localization]"));
   CHECK(contains(error_of("[vision]\nstale_ms = 100\n"), "it belongs to [imu], [gait]"));
   CHECK(contains(error_of("[field]\nline_width_ = 0.05\n"), "did you mean line_width_m?"));
