@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ostream>
 #include <set>
+#include <utility>
 
 #include "platform/host/command_line.h"
 #include "platform/host/frame_pictures.h"
@@ -30,8 +31,12 @@ void print_warnings(const DataSet& set, std::ostream& err) {
 }
 
 SetResult run_set(const DataSet& set, const EvaluateOptions& options, bool json, std::ostream& out, std::ostream& err) {
-  if (!json) print_table_head(out, set, options);
+  bool headed = json;  // with the first frame: what concerns all frames is an error by itself
+  const auto print_head = [&] {
+    if (!std::exchange(headed, true)) print_table_head(out, set, options);
+  };
   SetResult result = evaluate(set, options, [&](const FrameRecord& record) {
+    print_head();
     if (json) {
       out << json_line(set.name, record) << "\n" << std::flush;
     } else {
@@ -42,6 +47,7 @@ SetResult run_set(const DataSet& set, const EvaluateOptions& options, bool json,
       err << "touchline: " << record.failure << "\n";
     }
   });
+  print_head();
   if (!json) print_table_summary(out, result);
   const Summary sum = summarize(result);
   if (sum.with_pose == 0 && sum.failed < sum.frames) {

@@ -306,6 +306,14 @@ TEST_CASE("where nothing counts there is a dash, not a perfect figure") {
   CHECK(contains(run({"evaluate", folder.path().string(), "--json"}).out, "\"rmse_m\":null"));
 }
 
+TEST_CASE("images smaller than the working size are told without a table") {
+  const TempFolder folder;
+  write_tiny(folder);
+  const Run result = run({"evaluate", folder.path().string(), "--work", "640x480"});
+  check_refused(result, "images of 320x240 are smaller than the working size 640x480");
+  CHECK(result.out.empty());
+}
+
 TEST_CASE("two sets of one name are told apart, in lines and in folders") {
   const TempFolder first;
   const TempFolder second;
