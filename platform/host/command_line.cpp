@@ -104,6 +104,9 @@ void add_accept(CLI::App& app, AcceptCommand& command) {
   add_whole(sub, "--poses", command.runs.poses, 1, 100000, "single poses in the simulator");
   add_whole(sub, "--walks", command.runs.walks, 1, 1000, "walks in the simulator, each field");
   add_whole(sub, "--threads", command.runs.threads, 1, 64, "runs of the simulator at the same time");
+  sub.footer(
+      "It takes about five minutes, most of them for the simulator's rows; with --no-simulator a few seconds.\n" +
+      sub.get_footer());
 }
 
 void add_simulate(CLI::App& app, SimulateCommand& command) {

@@ -78,6 +78,10 @@ TEST_CASE("every command has a help with an example, and help is no error") {
   }
 }
 
+TEST_CASE("accept's help says how long it takes") {
+  CHECK(contains(run({"accept", "--help"}).out, "about five minutes"));
+}
+
 TEST_CASE("version and help in the words that people try first") {
   CHECK(run({"--version"}).status == 0);
   CHECK(run({"--version"}).out.starts_with("touchline 0."));
