@@ -14,6 +14,7 @@
 #include "vision/digestion.h"
 #include "vision/graph_storage.h"
 #include "vision/image/bit_ops.h"
+#include "vision/image/subsample.h"
 #include "vision/node_graph.h"
 
 namespace touchline::bench {
@@ -40,6 +41,24 @@ void time_vision(benchmark::State& state, const FramePool& pool, const KernelCho
     const View& view = pool.views[i / shots_per_view % pool.views.size()];
     chain->see(pool.frame(view, static_cast<int>(i % shots_per_view)), view.mount, 0.02 * static_cast<double>(i));
     ++i;
+  }
+}
+
+/// Averaging and subsampling alone, of a 752x480 frame that stays in the cache. No time depends on what it shows.
+void time_subsampling(benchmark::State& state, const KernelChoice& kernels, PixelFormat format) {
+  constexpr int width = 752, height = 480, work_width = 320, work_height = 240;
+  const int stride = width * bytes_per_pixel(format);
+  const std::vector<std::uint8_t> frame(static_cast<std::size_t>(stride * height), 90);
+  std::vector<std::uint8_t> y(work_width * work_height), cb(y.size() / 4), cr(y.size() / 4);
+  const auto storage = std::make_unique<SubsampleStorage<width, work_width>>();
+  Subsampler subsampler(storage->memory());
+  require(subsampler.configure(width, height, work_width, work_height, kernels.vision), "subsampler");
+  for (auto _ : state) {
+    require(subsampler.run({format, frame.data(), width, height, stride},
+                           {{y.data(), work_width, work_height, work_width},
+                            {cb.data(), work_width / 2, work_height / 2, work_width / 2},
+                            {cr.data(), work_width / 2, work_height / 2, work_width / 2}}),
+            "subsampling");
   }
 }
 
@@ -188,6 +207,11 @@ void add(const std::string& name, Function function) {
 void register_scaling(const FramePool& pool, const KernelChoice& kernels) {
   add("memcpy of one frame", [&pool](benchmark::State& s) { time_memcpy(s, pool); });
   add("frame to pose", [&pool, kernels](benchmark::State& s) { time_frame_to_pose(s, pool, kernels); });
+  for (const auto& [name, format] :
+       {std::pair{"rgb24", PixelFormat::rgb24}, {"yuyv", PixelFormat::yuyv}, {"rgb565", PixelFormat::rgb565}}) {
+    add(std::string("subsampling/") + name,
+        [kernels, format = format](benchmark::State& s) { time_subsampling(s, kernels, format); });
+  }
   // Each twice the area of the one before.
   for (const auto& [w, h] : {std::pair{160, 120}, {226, 170}, {320, 240}, {452, 340}, {640, 480}}) {
     add("vision/" + std::to_string(w) + "x" + std::to_string(h),
