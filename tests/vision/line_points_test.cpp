@@ -170,8 +170,9 @@ TEST_CASE("near lines have as many points in a large picture as in a small one")
   Scene scene;
   scene.stripes = {{{0.10F, -1.0F}, {0.10F, 1.0F}, 0.10F, line_white}};
   const auto metres = [&](int width, int height) {
+    const auto found = find(scene, pose, 0.10F, width, height);
     float sum = 0.0F;
-    for (const LinePoint& p : find(scene, pose, 0.10F, width, height)->points.span()) sum += p.length;
+    for (const LinePoint& p : found->points.span()) sum += p.length;
     return sum;
   };
   const float small = metres(320, 240);
